@@ -1,0 +1,15 @@
+# A dependency provider for MFEM's configure step: answers find_package(PETSc) from pkg-config.
+# MFEM's own finder does not understand Debian's PETSc layout. Used through CMAKE_PROJECT_TOP_LEVEL_INCLUDES.
+macro(titin_provide_petsc method name)
+  if("${name}" STREQUAL "PETSc")
+    find_package(PkgConfig REQUIRED)
+    pkg_check_modules(PETSC_PC REQUIRED petsc)
+    set(PETSc_FOUND TRUE)
+    set(PETSC_FOUND TRUE)
+    set(PETSC_VERSION ${PETSC_PC_VERSION})
+    set(PETSC_INCLUDES ${PETSC_PC_INCLUDE_DIRS})
+    set(PETSC_LIBRARIES ${PETSC_PC_LINK_LIBRARIES})
+    set(PETSC_INCLUDE_DIRS ${PETSC_PC_INCLUDE_DIRS})
+  endif()
+endmacro()
+cmake_language(SET_DEPENDENCY_PROVIDER titin_provide_petsc SUPPORTED_METHODS FIND_PACKAGE)

@@ -1,0 +1,31 @@
+/// The only place that calls MPI directly. All functions are collective on `comm` unless they say otherwise.
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace titin {
+
+/// MPI for the life of the program; also makes BLAS single-threaded (one rank is one core).
+class MpiSession {
+ public:
+  MpiSession(int& argc, char**& argv);
+  ~MpiSession();
+  MpiSession(const MpiSession&) = delete;
+};
+
+int rank(MPI_Comm comm = MPI_COMM_WORLD);   // not collective
+int ranks(MPI_Comm comm = MPI_COMM_WORLD);  // not collective
+bool is_root();                             // rank 0 of the world; not collective
+
+double sum(double x, MPI_Comm comm = MPI_COMM_WORLD);
+double max(double x, MPI_Comm comm = MPI_COMM_WORLD);
+double min(double x, MPI_Comm comm = MPI_COMM_WORLD);
+long sum(long x, MPI_Comm comm = MPI_COMM_WORLD);
+void sum(std::vector<double>& x, MPI_Comm comm = MPI_COMM_WORLD);  ///< in place, elementwise
+bool any_of(bool x, MPI_Comm comm = MPI_COMM_WORLD);
+std::string broadcast(std::string text, MPI_Comm comm = MPI_COMM_WORLD);  ///< rank 0's
+
+}  // namespace titin

@@ -1,0 +1,57 @@
+/// What the run loop knows of a formulation.
+#pragma once
+
+#include <mfem.hpp>
+#include <string>
+#include <vector>
+
+namespace titin {
+
+/// The outcome of one attempted time step. Failure is a value.
+struct Step {
+  double time = 0, dt = 0;  ///< [s] at the end of the step
+  int newton = 0;           ///< iterations
+  int krylov = 0;           ///< linear iterations
+  double residual = 0;      ///< last residual over its scale
+  std::vector<double> residuals;  ///< the same of each iteration: shows the order of convergence
+  std::string failure;      ///< empty when it converged; else where and why, in words
+  bool ok() const { return failure.empty(); }
+};
+
+/// One number that is followed in time: a column of history.csv, "name [unit]".
+struct Quantity {
+  std::string name, unit;
+  double value = 0;
+};
+
+/// One field for ParaView; the grid function is the model's and is current after Model::update_fields.
+struct Field {
+  std::string name, unit;
+  mfem::ParGridFunction* values = nullptr;
+};
+
+class Model {
+ public:
+  virtual ~Model() = default;
+
+  /// Tries the step from the last accepted state to time() + dt. Collective.
+  virtual Step advance(double dt) = 0;
+  /// Makes the tried step the accepted state.
+  virtual void accept() = 0;
+  /// Forgets the tried step.
+  virtual void rewind() = 0;
+  virtual double time() const = 0;
+  /// Largest step that the formulation can take from here [s] (explicit: stability); infinite for implicit ones.
+  virtual double largest_dt() const = 0;
+
+  /// Of the accepted state. Collective. The same names in the same order at every call.
+  virtual std::vector<Quantity> quantities() = 0;
+  /// Name of the quantity that the line of a step shows.
+  virtual std::string shown_quantity() const = 0;
+  virtual void update_fields() = 0;
+  virtual const std::vector<Field>& fields() const = 0;
+  virtual mfem::ParMesh& mesh() = 0;
+  virtual long unknowns() const = 0;
+};
+
+}  // namespace titin
