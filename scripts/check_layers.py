@@ -38,10 +38,9 @@ NEVER = {
     "scene": ["hdf5", "toml++", "CGAL/"],
 }
 
-# Files that may do what their layer may not: the single place for it.
+# The single place of a library.
 ONLY_HERE = {
     "mpi.h": ["src/base/parallel.hpp"],
-    "toml++": ["src/base/config.cpp"],
     "udunits2": ["src/base/units.cpp"],
 }
 # Calls of raw MPI anywhere but in base.
