@@ -1,0 +1,78 @@
+/// What happens at named boundaries: prescribed displacements, dead tractions, follower pressures.
+#pragma once
+
+#include <mfem.hpp>
+#include <string>
+#include <vector>
+
+#include "base/config.hpp"
+#include "mesh/mesh.hpp"
+
+namespace titin {
+
+class CellTables;
+class ThreeField;
+
+struct BoundaryConfig {
+  std::string name;
+  std::vector<std::string> on;  // boundaries of the mesh
+  bool clamp = false;
+  std::array<bool, 3> prescribed{};
+  std::array<Table, 3> displacement;  // [m]
+  std::array<double, 3> traction{};   // dead [Pa], force per reference area
+  Table traction_scale{1};
+  Table pressure;                     // follower [Pa], pushes against the outward normal of the deformed surface
+  bool constrained() const { return clamp || prescribed[0] || prescribed[1] || prescribed[2]; }
+  bool loaded() const;
+  void bind(Section& s, const NamedMesh& mesh);
+};
+
+/// Prescribed components of true dofs.
+class Constraints {
+ public:
+  Constraints(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, mfem::ParFiniteElementSpace& space);
+
+  const mfem::Array<int>& dofs() const { return dofs_; }        ///< true dofs, this rank, increasing
+  bool is_constrained_local(int local_dof) const { return local_marker_[local_dof] != 0; }
+  void set_values(double time, mfem::Vector& u) const;          ///< u_i = g_i(t) at dofs()
+  /// True dofs of all three components on a boundary: [component] -> dofs; its reaction is the sum of their residuals.
+  const std::array<mfem::Array<int>, 3>& boundary_dofs(int boundary) const { return boundary_dofs_[boundary]; }
+
+ private:
+  mfem::Array<int> dofs_;
+  std::vector<const Table*> values_;
+  std::vector<char> local_marker_;
+  std::vector<std::array<mfem::Array<int>, 3>> boundary_dofs_;
+};
+
+/// Surface loads as integrals over cell faces in the reference configuration.
+class FaceLoads {
+ public:
+  FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, const CellTables& tables,
+            const mfem::ParFiniteElementSpace& space, int points);
+
+  bool on_cell(int cell) const { return !faces_of_cell_[cell].empty(); }
+  bool has_follower() const { return has_follower_; }
+  /// Adds minus the load's nodal forces to r [3][nodes]; with K != nullptr also their derivative.
+  void add(int cell, double time, const double* u, double* r, double* K) const;
+
+ private:
+  struct Point {
+    std::vector<double> N, G;  // shapes [nodes], reference gradients [J][nodes]
+    std::array<double, 3> normal;  // outward, times reference area [m^2]
+  };
+  struct Face {
+    const BoundaryConfig* load;
+    std::vector<Point> points;
+  };
+  void add_face(int boundary_face, const BoundaryConfig& load, const mfem::IntegrationRule& rule, mfem::ParMesh& mesh,
+                const mfem::FiniteElement& element);
+  void add_dead(const Face& face, double time, double* r) const;
+  void add_follower(const Point& point, double pressure, const double* u, double* r, double* K) const;
+
+  int nodes_;
+  bool has_follower_ = false;
+  std::vector<std::vector<Face>> faces_of_cell_;
+};
+
+}  // namespace titin

@@ -1,0 +1,83 @@
+#include "fe/muscle.hpp"
+
+#include <limits>
+
+#include "base/timers.hpp"
+
+namespace titin {
+
+Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
+    : mesh_(std::move(mesh)),
+      config_(std::move(config)),
+      collection_(config_.order, 3),
+      space_(mesh_.mesh.get(), &collection_, 3, mfem::Ordering::byVDIM),
+      system_(config_, mesh_, space_),
+      newton_(config_.newton, system_, system_.matrix()),
+      history_(system_),
+      fields_(system_),
+      u_(space_.GetTrueVSize()),
+      v_(space_.GetTrueVSize()),
+      trial_(space_.GetTrueVSize()) {
+  u_ = v_ = trial_ = 0.0;
+  mfem::Vector R(system_.size());
+  system_.residual(u_, R);
+  history_.update(u_, v_, system_.step());
+}
+
+Step Muscle::advance(double dt) {
+  Step step;
+  step.time = time_ + dt;
+  step.dt = dt;
+  system_.step() = {step.time, dt, u_, v_};
+  step.failure = predict(step);
+  if (!step.ok()) return step;
+  const NewtonResult result = newton_.solve(trial_);
+  step.newton += result.iterations;
+  step.krylov += result.krylov;
+  step.residual = result.residual;
+  step.residuals = result.residuals;
+  step.failure = result.failure;
+  return step;
+}
+
+/// First guess of the step: the motion goes on, and the prescribed values are met by one linear solve. If that turns a cell
+/// inside out, the same from rest.
+std::string Muscle::predict(Step& step) {
+  mfem::Vector moved = u_;
+  moved.Add(step.dt, v_);
+  const std::string failure = predict_from(moved, step);
+  return failure.empty() ? failure : predict_from(u_, step);
+}
+
+std::string Muscle::predict_from(const mfem::Vector& start, Step& step) {
+  mfem::Vector R(system_.size()), change(system_.size()), lift(system_.size()), prescribed(system_.size());
+  if (!system_.residual(start, R)) return system_.domain_error();
+  lift = 0.0;
+  prescribed = start;
+  system_.constraints().set_values(step.time, prescribed);
+  for (int dof : system_.constraints().dofs()) lift(dof) = prescribed(dof) - start(dof);
+  system_.tangent_with_lift(start, system_.matrix(), lift, R);
+  newton_.linear().matrix_changed();
+  change = 0.0;
+  const std::string failure = newton_.linear().solve(R, change);
+  step.newton += 1;
+  step.krylov += newton_.linear().iterations();
+  if (!failure.empty()) return failure;
+  trial_ = start;
+  trial_ -= change;
+  for (int dof : system_.constraints().dofs()) trial_(dof) = prescribed(dof);
+  return system_.residual(trial_, R) ? "" : system_.domain_error();
+}
+
+void Muscle::accept() {
+  Timers::Scope timer("history");
+  const StepState& step = system_.step();
+  for (int i = 0; i < u_.Size(); ++i) v_(i) = (trial_(i) - u_(i)) / step.dt;
+  u_ = trial_;
+  time_ = step.time;
+  history_.update(u_, v_, step);
+}
+
+double Muscle::largest_dt() const { return std::numeric_limits<double>::infinity(); }
+
+}  // namespace titin

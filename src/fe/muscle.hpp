@@ -1,0 +1,49 @@
+/// The muscle formulation as a Model: implicit steps of a total Lagrangian three-field finite element method.
+#pragma once
+
+#include <memory>
+
+#include "fe/muscle_fields.hpp"
+#include "fe/muscle_history.hpp"
+#include "fe/muscle_system.hpp"
+#include "solve/model.hpp"
+
+namespace titin {
+
+class Muscle : public Model {
+ public:
+  /// The mesh must not be empty and the config free of errors. Throws InputError for a marker outside the mesh.
+  Muscle(NamedMesh mesh, MuscleConfig config);
+
+  Step advance(double dt) override;
+  void accept() override;
+  void rewind() override { trial_ = u_; }
+  double time() const override { return time_; }
+  double largest_dt() const override;
+
+  std::vector<Quantity> quantities() override { return history_.quantities(); }
+  std::string shown_quantity() const override { return history_.shown(); }
+  void update_fields() override { fields_.update(u_, v_, system_.step().u_old); }
+  const std::vector<Field>& fields() const override { return fields_.fields(); }
+  mfem::ParMesh& mesh() override { return *mesh_.mesh; }
+  long unknowns() const override { return static_cast<long>(space_.GlobalTrueVSize()); }
+  MuscleSystem& system() { return system_; }
+  const mfem::Vector& displacement() const { return u_; }
+
+ private:
+  std::string predict(Step& step);
+  std::string predict_from(const mfem::Vector& start, Step& step);
+
+  NamedMesh mesh_;
+  MuscleConfig config_;
+  mfem::H1_FECollection collection_;
+  mfem::ParFiniteElementSpace space_;
+  MuscleSystem system_;
+  Newton newton_;
+  MuscleHistory history_;
+  MuscleFields fields_;
+  double time_ = 0;
+  mfem::Vector u_, v_, trial_;  // true dofs: accepted displacement [m] and its rate [m/s]; the step being tried
+};
+
+}  // namespace titin

@@ -1,0 +1,86 @@
+#include "fe/muscle_config.hpp"
+
+#include <fmt/format.h>
+
+namespace titin {
+
+namespace {
+
+constexpr int max_order = 3;
+constexpr int max_points = 8;
+
+void bind_formulation(Section s, MuscleConfig& c) {
+  s.choose("inertia", c.inertia, {{"dynamic", Inertia::dynamic}, {"quasi-static", Inertia::quasi_static}},
+           {.doc = "quasi-static: no inertia, and the rate of the fibres is taken as zero"});
+  s.read("order", c.order, {.range = {.min = 1, .max = max_order},
+                            .doc = "k of Q_k displacement with P_(k-1) discontinuous pressure and dilatation"});
+  s.read("quadrature", c.quadrature, {.range = {.min = 0, .max = max_points},
+                                      .doc = "Gauss points per direction; 0 takes order + 1"});
+  s.choose("fibre_rate", c.fibre_rate,
+           {{"stretch_difference", FibreRate::stretch_difference}, {"velocity_gradient", FibreRate::velocity_gradient}},
+           {.doc = "rate of the fibre's stretch in a step: from its two ends (symmetric tangent), or from the velocity gradient"});
+  s.read("pennation_axis", c.pennation_axis, {.doc = "direction that pennation angles are measured from"});
+  if (!(norm(c.pennation_axis) > 0)) s.error("pennation_axis", "a direction of length zero", "give the line of action, e.g. [1, 0, 0]");
+}
+
+}  // namespace
+
+void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
+  bind_formulation(root.section("muscle", "the implicit three-field finite element formulation"), *this);
+  bind_materials(root, mesh);
+  root.each("boundary", "what happens at a boundary of the mesh; one that is not named is free",
+            [&](const std::string& name, Section s) {
+              BoundaryConfig boundary;
+              boundary.name = name;
+              boundary.bind(s, mesh);
+              boundaries.push_back(boundary);
+            });
+  Section body = root.section("body", "forces per mass on everything");
+  body.read("acceleration", body_acceleration, {.unit = "m/s^2", .doc = "body force per mass, e.g. gravity"});
+  body.read("scale", body_scale, {.doc = "factor of the acceleration, constant or in time"});
+  bind_observers(root);
+  Section solver = root.section("solver", "Newton's method and the linear solver");
+  newton.bind(solver);
+}
+
+void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
+  root.each("materials", "one material, of one or more regions", [&](const std::string& name, Section s) {
+    std::vector<std::string> regions;
+    s.read("regions", regions, {.doc = "regions of the mesh that are made of it (default: all)"});
+    materials[name] = Material::read(s);
+    if (s.describing() || !mesh.mesh) return;
+    if (regions.empty())
+      for (const auto& [region, attribute] : mesh.regions) regions.push_back(region);
+    for (const auto& region : regions) {
+      const auto found = mesh.regions.find(region);
+      if (found == mesh.regions.end())
+        s.error("regions", fmt::format("the mesh has no region '{}'", region), "it has: " + names_of(mesh.regions));
+      else if (!material_of_region.emplace(found->second, name).second)
+        s.error(s.has("regions") ? "regions" : "",
+                fmt::format("region '{}' is made of '{}' already", region, material_of_region[found->second]),
+                "give each material its own regions");
+    }
+  });
+  if (root.describing() || !mesh.mesh) return;
+  if (materials.empty()) root.error("materials", "no material", "add a table [materials.NAME]");
+  for (const auto& [region, attribute] : mesh.regions)
+    if (!materials.empty() && !material_of_region.count(attribute))
+      root.error("materials", fmt::format("region '{}' has no material", region), "name it in the regions of one");
+}
+
+void MuscleConfig::bind_observers(Section& root) {
+  Section points = root.section("markers", "points whose displacement is followed: NAME = \"x, y, z mm\", undeformed");
+  for (const std::string& name : points.names()) {
+    MarkerConfig marker{name, {}};
+    points.read(name, marker.position, {.unit = "m", .doc = "position in the undeformed body"});
+    markers.push_back(marker);
+  }
+  root.each("averages", "means over the cells whose centre lies in a box", [&](const std::string& name, Section s) {
+    AverageConfig average{name, {}, {}};
+    s.read("lower", average.lower, {.unit = "m", .required = true, .doc = "lower corner of the box"});
+    s.read("upper", average.upper, {.unit = "m", .required = true, .doc = "upper corner of the box"});
+    averages.push_back(average);
+  });
+}
+
+}  // namespace titin

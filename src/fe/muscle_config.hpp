@@ -1,0 +1,53 @@
+/// What a scene says of the muscle formulation.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fe/loads.hpp"
+#include "materials/material.hpp"
+#include "mesh/mesh.hpp"
+#include "solve/newton.hpp"
+
+namespace titin {
+
+enum class Inertia { dynamic, quasi_static };
+
+/// Cells whose centre lies in this box of the reference configuration: their means are followed in history.csv.
+struct AverageConfig {
+  std::string name;
+  std::array<double, 3> lower{}, upper{};  // [m]
+};
+
+struct MarkerConfig {
+  std::string name;
+  std::array<double, 3> position{};  // [m] in the reference configuration
+};
+
+struct MuscleConfig {
+  Inertia inertia = Inertia::dynamic;
+  int order = 2;       // of the displacement
+  int quadrature = 0;  // Gauss points per direction; 0: order + 1
+  FibreRate fibre_rate = FibreRate::stretch_difference;
+  std::array<double, 3> pennation_axis{1, 0, 0};
+  std::array<double, 3> body_acceleration{};  // [m/s^2]
+  Table body_scale{1};
+  std::vector<BoundaryConfig> boundaries;
+  std::vector<MarkerConfig> markers;
+  std::vector<AverageConfig> averages;
+  std::map<std::string, std::shared_ptr<const Material>> materials;
+  std::map<int, std::string> material_of_region;  // by mesh attribute
+  NewtonConfig newton;
+
+  int points() const { return quadrature > 0 ? quadrature : order + 1; }
+  FibreRate rate() const { return inertia == Inertia::dynamic ? fibre_rate : FibreRate::none; }
+  void bind(Section& root, const NamedMesh& mesh);
+
+ private:
+  void bind_materials(Section& root, const NamedMesh& mesh);
+  void bind_observers(Section& root);
+};
+
+}  // namespace titin

@@ -1,0 +1,223 @@
+#include "fe/muscle_history.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "base/parallel.hpp"
+
+namespace titin {
+
+namespace {
+
+/// A cell's centre on the border of a box counts as inside: this part of the box's size is round-off of the mesh.
+constexpr double border = 1e-9;
+constexpr double degree = std::numbers::pi / 180;
+const char* const component_name[] = {"x", "y", "z"};
+
+bool inside(const AverageConfig& box, const mfem::Vector& x) {
+  for (int d = 0; d < 3; ++d) {
+    const double margin = border * (box.upper[d] - box.lower[d]);
+    if (x(d) < box.lower[d] - margin || x(d) > box.upper[d] + margin) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system) {
+  const MuscleConfig& config = system.config();
+  int max_attribute = 0;
+  for (const auto& [attribute, name] : config.material_of_region) max_attribute = std::max(max_attribute, attribute);
+  terms_of_region_.resize(max_attribute + 1);
+  const bool one = config.materials.size() == 1;
+  for (const auto& [name, material] : config.materials) {
+    std::vector<int> accounts;
+    for (const TermInfo& term : material->terms()) {
+      accounts.push_back(static_cast<int>(terms_.size()));
+      terms_.push_back({one ? term.name : name + "_" + term.name, term.stores_energy});
+    }
+    for (const auto& [attribute, region_material] : config.material_of_region)
+      if (region_material == name) terms_of_region_[attribute] = accounts;
+    if (material->has_fibres()) means_.push_back({name});
+  }
+  for (const auto& average : config.averages) means_.push_back({average.name});
+  auto& space = system.space();
+  for (int cell = 0; cell < space.GetNE(); ++cell) cell_means_.push_back(means_of_cell(cell));
+  find_markers();
+  for (std::size_t b = 0; b < config.boundaries.size(); ++b)
+    if (config.boundaries[b].constrained()) shown_ = "reaction_" + config.boundaries[b].name + "_x";
+  if (shown_.empty()) shown_ = "volume";
+}
+
+std::vector<int> MuscleHistory::means_of_cell(int cell) const {
+  const MuscleConfig& config = system_.config();
+  auto& space = system_.space();
+  if (!system_.material(cell).has_fibres()) return {};
+  const std::string& material = config.material_of_region.at(space.GetParMesh()->GetAttribute(cell));
+  mfem::Vector centre(3);
+  space.GetElementTransformation(cell)->Transform(mfem::Geometries.GetCenter(mfem::Geometry::CUBE), centre);
+  std::vector<int> list;
+  for (std::size_t m = 0; m < means_.size(); ++m) {
+    bool in = means_[m].name == material;
+    for (const auto& average : config.averages)
+      if (average.name == means_[m].name) in = inside(average, centre);
+    if (in) list.push_back(static_cast<int>(m));
+  }
+  return list;
+}
+
+void MuscleHistory::find_markers() {
+  const auto& config = system_.config().markers;
+  if (config.empty()) return;
+  auto& space = system_.space();
+  mfem::DenseMatrix points(3, static_cast<int>(config.size()));
+  for (std::size_t m = 0; m < config.size(); ++m)
+    for (int d = 0; d < 3; ++d) points(d, m) = config[m].position[d];
+  mfem::Array<int> cells;
+  mfem::Array<mfem::IntegrationPoint> places;
+  space.GetParMesh()->FindPoints(points, cells, places, false);
+  for (std::size_t m = 0; m < config.size(); ++m) {
+    const bool mine = cells[m] >= 0;
+    const bool found = any_of(mine);
+    if (!found)
+      throw InputError({fmt::format("markers.{}: the point ({:g}, {:g}, {:g}) m is not in the mesh; move it inside", config[m].name,
+                                    points(0, m), points(1, m), points(2, m))});
+    Marker marker{config[m].name, -1, {}};
+    // FindPoints gives a point on a shared face to the lowest rank only, and its element id there
+    if (mine && cells[m] < space.GetNE()) {
+      marker.cell = cells[m];
+      marker.shape.SetSize(system_.tables().nodes());
+      space.GetFE(marker.cell)->CalcShape(places[m], marker.shape);
+    }
+    markers_.push_back(marker);
+  }
+}
+
+void MuscleHistory::update(const mfem::Vector& u, const mfem::Vector& v, const StepState& step) {
+  u_ = u;
+  forces_ = system_.forces();
+  kinetic_ = volumetric_ = volume_ = 0;
+  for (auto& term : terms_)
+    if (term.stored) term.value = 0;
+  for (auto& mean : means_) mean.volume = mean.stretch = mean.pennation = mean.rate = 0;
+  const std::vector<double> v_cells = system_.cell_values(v);
+  const int n = 3 * system_.tables().nodes();
+  system_.for_each_cell(u, step.u_old, [&](int cell, const Material& material, const ThreeField& kernel) {
+    add_cell(cell, material, kernel, kernel.points(system_.point_input()), &v_cells[cell * n]);
+  });
+  if (step.dt > 0) add_boundary_work(u, step.u_old);
+  if (kinetic_at_start_ < 0) {
+    kinetic_at_start_ = kinetic_;
+    stored_at_start_ = volumetric_;
+    for (const auto& term : terms_)
+      if (term.stored) stored_at_start_ += term.value;
+  }
+}
+
+void MuscleHistory::add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in,
+                             const double* v) {
+  const CellTables& tables = system_.tables();
+  for (int q = 0; q < in.n; ++q) {
+    const double w = tables.weight(cell, q);
+    volume_ += w * kernel.J()[q];
+    volumetric_ += w * material.volumetric(kernel.dilatation()[q]).U;
+    for (int i = 0; i < 3; ++i) {
+      double velocity = 0;
+      for (int a = 0; a < tables.nodes(); ++a) velocity += tables.shape(q)[a] * v[i * tables.nodes() + a];
+      kinetic_ += 0.5 * material.density() * w * velocity * velocity;
+    }
+  }
+  add_terms(cell, material, kernel, in);
+  add_means(cell, material, kernel, in);
+}
+
+void MuscleHistory::add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in) {
+  const auto& accounts = terms_of_region_[system_.space().GetParMesh()->GetAttribute(cell)];
+  std::vector<double> W(in.n);
+  std::vector<Mat3> P(in.n);
+  for (std::size_t t = 0; t < accounts.size(); ++t) {
+    TermAccount& account = terms_[accounts[t]];
+    const int term = static_cast<int>(t);
+    if (account.stored)
+      material.term_energy(term, in, W.data());
+    else
+      material.term_stress(term, in, P.data());
+    for (int q = 0; q < in.n; ++q) {
+      const double w = system_.tables().weight(cell, q);
+      if (account.stored) account.value += w * W[q];
+      for (int i = 0; i < 9 && !account.stored; ++i) account.value += w * P[q][i] * (kernel.F()[q][i] - kernel.F_old()[q][i]);
+    }
+  }
+}
+
+void MuscleHistory::add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in) {
+  if (cell_means_[cell].empty()) return;
+  std::vector<double> stretch(in.n), rate(in.n), activation(in.n);
+  material.fibre_state(in, stretch.data(), rate.data(), activation.data());
+  const Vec3 axis = system_.config().pennation_axis;
+  for (int q = 0; q < in.n; ++q) {
+    const double w = system_.tables().weight(cell, q) * kernel.J()[q];
+    const Vec3 a = multiply(kernel.F()[q], material.fibre());
+    const double cosine = std::clamp(dot(a, axis) / (norm(a) * norm(axis)), -1.0, 1.0);
+    for (int m : cell_means_[cell]) {
+      means_[m].volume += w;
+      means_[m].stretch += w * stretch[q];
+      means_[m].rate += w * rate[q];
+      means_[m].pennation += w * std::acos(cosine) / degree;
+    }
+  }
+}
+
+void MuscleHistory::add_boundary_work(const mfem::Vector& u, const mfem::Vector& u_old) {
+  for (int dof : system_.constraints().dofs()) work_boundary_ += forces_(dof) * (u(dof) - u_old(dof));
+  for (int i = 0; i < u.Size(); ++i) {
+    work_boundary_ += system_.load_forces()(i) * (u(i) - u_old(i));
+    work_body_ += system_.body_forces()(i) * (u(i) - u_old(i));
+  }
+}
+
+Quantity MuscleHistory::reaction(int boundary, int component) const {
+  double force = 0;
+  for (int dof : system_.constraints().boundary_dofs(boundary)[component]) force += forces_(dof);
+  return {fmt::format("reaction_{}_{}", system_.config().boundaries[boundary].name, component_name[component]), "N", sum(force)};
+}
+
+std::vector<Quantity> MuscleHistory::quantities() const {
+  std::vector<Quantity> list;
+  const auto& boundaries = system_.config().boundaries;
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
+    for (int i = 0; i < 3 && boundaries[b].constrained(); ++i) list.push_back(reaction(static_cast<int>(b), i));
+  const double kinetic = sum(kinetic_), volumetric = sum(volumetric_);
+  list.push_back({"energy_kinetic", "J", kinetic});
+  list.push_back({"energy_volumetric", "J", volumetric});
+  double stored = volumetric, done = 0;
+  for (const auto& term : terms_) {
+    const double value = sum(term.value);
+    (term.stored ? stored : done) += value;
+    list.push_back({(term.stored ? "energy_" : "work_") + term.name, "J", value});
+  }
+  const double boundary = sum(work_boundary_), body = sum(work_body_);
+  list.push_back({"work_boundary", "J", boundary});
+  list.push_back({"work_body", "J", body});
+  list.push_back({"energy_balance_error", "J",
+                  boundary + body - done - (kinetic - sum(std::max(kinetic_at_start_, 0.0))) - (stored - sum(stored_at_start_))});
+  list.push_back({"volume", "m^3", sum(volume_)});
+  for (const auto& mean : means_) {
+    const double volume = sum(mean.volume), over = volume > 0 ? 1 / volume : 0;
+    list.push_back({"mean_stretch_" + mean.name, "", sum(mean.stretch) * over});
+    list.push_back({"mean_pennation_" + mean.name, "degree", sum(mean.pennation) * over});
+    list.push_back({"mean_fibre_rate_" + mean.name, "1/s", sum(mean.rate) * over});
+  }
+  const std::vector<double> u_cells = system_.cell_values(u_);
+  const int nodes = system_.tables().nodes();
+  for (const auto& marker : markers_)
+    for (int i = 0; i < 3; ++i) {
+      double value = 0;
+      for (int a = 0; a < nodes && marker.cell >= 0; ++a) value += marker.shape(a) * u_cells[(3 * marker.cell + i) * nodes + a];
+      list.push_back({fmt::format("marker_{}_u{}", marker.name, component_name[i]), "m", sum(value)});
+    }
+  return list;
+}
+
+}  // namespace titin

@@ -1,0 +1,67 @@
+/// Numbers that a muscle run is followed by: reactions, energies, volume, means, markers.
+///
+/// Work is summed over the steps with the forces at the end of each step. With the weak form tested by the step's
+/// displacement this makes an identity, to solver tolerance,
+///
+///   work of boundary and body forces = sum over terms of int P_term : dF dV + int rho a . du dV,
+///
+/// and what the stored and kinetic energies fall short of it is the dissipation of the backward Euler scheme: the balance
+/// error, of first order in dt.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fe/muscle_system.hpp"
+#include "solve/model.hpp"
+
+namespace titin {
+
+class MuscleHistory {
+ public:
+  explicit MuscleHistory(MuscleSystem& system);
+
+  /// Takes in an accepted step: the system's forces are those at u. With dt = 0 (the start) no work is done.
+  void update(const mfem::Vector& u, const mfem::Vector& v, const StepState& step);
+  /// Collective.
+  std::vector<Quantity> quantities() const;
+  const std::string& shown() const { return shown_; }
+
+ private:
+  /// A term of a material: what it stores now, or the work it has done (counted as energy put in by the fibres).
+  struct TermAccount {
+    std::string name;
+    bool stored;
+    double value = 0;
+  };
+  struct Mean {
+    std::string name;
+    bool fibres = true;
+    double volume = 0, stretch = 0, pennation = 0, rate = 0;  // sums weighted with current volume; [m^3]
+  };
+  void add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in, const double* v);
+  void add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
+  void add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
+  void add_boundary_work(const mfem::Vector& u, const mfem::Vector& u_old);
+  void find_markers();
+  std::vector<int> means_of_cell(int cell) const;
+  Quantity reaction(int boundary, int component) const;
+
+  MuscleSystem& system_;
+  std::vector<TermAccount> terms_;
+  std::vector<std::vector<int>> terms_of_region_;  // [attribute][term of the material] -> account
+  std::vector<Mean> means_;
+  std::vector<std::vector<int>> cell_means_;
+  struct Marker {
+    std::string name;
+    int cell = -1;  // -1: on another rank
+    mfem::Vector shape;
+  };
+  std::vector<Marker> markers_;
+  mfem::Vector u_, forces_;
+  double kinetic_ = 0, volumetric_ = 0, volume_ = 0, work_boundary_ = 0, work_body_ = 0, kinetic_at_start_ = -1;
+  double stored_at_start_ = 0;
+  std::string shown_;
+};
+
+}  // namespace titin

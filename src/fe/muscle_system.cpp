@@ -1,0 +1,261 @@
+#include "fe/muscle_system.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "base/timers.hpp"
+
+namespace titin {
+
+namespace {
+
+/// Forces below this part of (largest stiffness x size of the body) are round-off: displacements carry 16 digits.
+constexpr double round_off = 1e-15;
+
+/// PETSc keeps entries of constrained rows and columns out when their index is negative.
+constexpr PetscInt leave_out = -1;
+
+}  // namespace
+
+MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mfem::ParFiniteElementSpace& space)
+    : config_(config),
+      space_(space),
+      tables_(space, config.order, config.points()),
+      constraints_(config.boundaries, mesh, space),
+      loads_(config.boundaries, mesh, tables_, space, config.points()),
+      kernel_(tables_),
+      u_cell_(3 * tables_.nodes()),
+      u_old_cell_(3 * tables_.nodes()),
+      forces_(space.GetTrueVSize()),
+      body_forces_(space.GetTrueVSize()),
+      load_forces_(space.GetTrueVSize()) {
+  mfem::Array<int> dofs;
+  for (int cell = 0; cell < space.GetNE(); ++cell) {
+    space.GetElementVDofs(cell, dofs);
+    cell_dofs_.insert(cell_dofs_.end(), dofs.begin(), dofs.end());
+    materials_.push_back(config.materials.at(config.material_of_region.at(mesh.mesh->GetAttribute(cell))).get());
+  }
+  for (mfem::Vector* v : {&step_.u_old, &step_.v_old, &forces_, &body_forces_, &load_forces_}) {
+    v->SetSize(space.GetTrueVSize());
+    *v = 0.0;
+  }
+  create_matrix();
+}
+
+MuscleSystem::~MuscleSystem() { MatDestroy(&K_); }
+
+void MuscleSystem::create_matrix() {
+  const int n = 3 * tables_.nodes();
+  const std::size_t entries = std::size_t(space_.GetNE()) * n * n + constraints_.dofs().Size();
+  std::vector<PetscInt> rows, columns;
+  rows.reserve(entries);
+  columns.reserve(entries);
+  std::vector<PetscInt> index(n);
+  for (int cell = 0; cell < space_.GetNE(); ++cell) {
+    for (int c = 0; c < n; ++c) {
+      const int dof = cell_dofs_[cell * n + c];
+      index[c] = constraints_.is_constrained_local(dof) ? leave_out : static_cast<PetscInt>(space_.GetGlobalTDofNumber(dof));
+    }
+    for (int c = 0; c < n; ++c)
+      for (int d = 0; d < n; ++d) {
+        rows.push_back(index[c]);
+        columns.push_back(index[d]);
+      }
+  }
+  const auto first = static_cast<PetscInt>(space_.GetMyTDofOffset());
+  for (int dof : constraints_.dofs()) {
+    rows.push_back(first + dof);
+    columns.push_back(first + dof);
+  }
+  values_.assign(entries, 1.0);  // the last ones stay: unit diagonal of constrained dofs
+  check(MatCreate(PETSC_COMM_WORLD, &K_));
+  check(MatSetSizes(K_, size(), size(), PETSC_DETERMINE, PETSC_DETERMINE));
+  check(MatSetType(K_, MATAIJ));
+  check(MatSetBlockSize(K_, 3));
+  check(MatSetPreallocationCOO(K_, entries, rows.data(), columns.data()));
+  bool symmetric = !loads_.has_follower();
+  for (const auto& [name, material] : config_.materials) symmetric = symmetric && material->symmetric_tangent(config_.rate());
+  check(MatSetOption(K_, MAT_SYMMETRIC, symmetric ? PETSC_TRUE : PETSC_FALSE));
+  check(MatSetOption(K_, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+}
+
+MuscleSystem::LocalVectors::LocalVectors(MuscleSystem& system, const mfem::Vector& u_true, const mfem::Vector& u_old_true)
+    : u(system.space_.GetVSize()), u_old(system.space_.GetVSize()) {
+  system.space_.GetProlongationMatrix()->Mult(u_true, u);
+  system.space_.GetProlongationMatrix()->Mult(u_old_true, u_old);
+}
+
+void MuscleSystem::gather(int cell, const mfem::Vector& local, double* values) const {
+  const int n = 3 * tables_.nodes();
+  for (int c = 0; c < n; ++c) values[c] = local(cell_dofs_[cell * n + c]);
+}
+
+std::vector<double> MuscleSystem::cell_values(const mfem::Vector& v) const {
+  mfem::Vector local(space_.GetVSize());
+  space_.GetProlongationMatrix()->Mult(v, local);
+  std::vector<double> values(cell_dofs_.size());
+  for (std::size_t c = 0; c < values.size(); ++c) values[c] = local(cell_dofs_[c]);
+  return values;
+}
+
+void MuscleSystem::gather(int cell, const LocalVectors& local) {
+  gather(cell, local.u, u_cell_.data());
+  gather(cell, local.u_old, u_old_cell_.data());
+}
+
+PointInput MuscleSystem::point_input() const {
+  PointInput in;
+  in.time = step_.time;
+  in.dt = step_.dt;
+  in.rate = step_.dt > 0 ? config_.rate() : FibreRate::none;
+  return in;
+}
+
+mfem::Vector MuscleSystem::to_true(const mfem::Vector& local) const {
+  mfem::Vector summed(space_.GetTrueVSize());
+  space_.GetProlongationMatrix()->MultTranspose(local, summed);
+  return summed;
+}
+
+bool MuscleSystem::residual(const mfem::Vector& u, mfem::Vector& R) {
+  Timers::Scope timer("residual");
+  const int n = 3 * tables_.nodes();
+  mfem::Vector a_true(size()), a(space_.GetVSize()), internal(space_.GetVSize()), inertia(space_.GetVSize()),
+      body(space_.GetVSize()), load(space_.GetVSize()), absolute(space_.GetVSize());
+  const bool moving = config_.inertia == Inertia::dynamic && step_.dt > 0;
+  for (int i = 0; i < size(); ++i)
+    a_true(i) = moving ? ((u(i) - step_.u_old(i)) / step_.dt - step_.v_old(i)) / step_.dt : 0.0;
+  space_.GetProlongationMatrix()->Mult(a_true, a);
+  for (auto* v : {&internal, &inertia, &body, &load, &absolute}) *v = 0.0;
+  const LocalVectors local(*this, u, step_.u_old);
+  std::vector<double> r(n), r_inertia(n), r_body(n), r_load(n);
+  int bad_cell = -1;
+  for (int cell = 0; cell < space_.GetNE() && bad_cell < 0; ++cell) {
+    gather(cell, local);
+    if (!kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data())) bad_cell = cell;
+    if (bad_cell >= 0) break;
+    for (auto* v : {&r, &r_inertia, &r_body, &r_load}) std::fill(v->begin(), v->end(), 0.0);
+    kernel_.add_forces(cell, material(cell), point_input(), r.data());
+    loads_.add(cell, step_.time, u_cell_.data(), r_load.data(), nullptr);
+    add_inertia_and_body(cell, a, r_inertia.data(), r_body.data());
+    for (int c = 0; c < n; ++c) {
+      const int dof = cell_dofs_[cell * n + c];
+      internal(dof) += r[c];
+      inertia(dof) += r_inertia[c];
+      body(dof) += r_body[c];
+      load(dof) -= r_load[c];
+      absolute(dof) += std::abs(r[c]) + std::abs(r_inertia[c]) + std::abs(r_body[c]) + std::abs(r_load[c]);
+    }
+  }
+  if (any_of(bad_cell >= 0)) {
+    set_domain_error(bad_cell, bad_cell >= 0 ? kernel_.bad_point() : -1);
+    R = 0.0;
+    return false;
+  }
+  body_forces_ = to_true(body);
+  load_forces_ = to_true(load);
+  forces_ = to_true(internal);
+  forces_ += to_true(inertia);
+  forces_ -= body_forces_;
+  forces_ -= load_forces_;
+  const mfem::Vector total = to_true(absolute);
+  force_scale_ = std::max(std::sqrt(sum(total * total)), force_floor_);
+  R = forces_;
+  for (int dof : constraints_.dofs()) R(dof) = 0;
+  return true;
+}
+
+/// Nodal forces of density * acceleration, and of density * body acceleration.
+void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& acceleration, double* inertia, double* body) const {
+  const int nodes = tables_.nodes();
+  std::vector<double> a(3 * nodes);
+  gather(cell, acceleration, a.data());
+  const double scale = config_.body_scale(step_.time), density = material(cell).density();
+  for (int q = 0; q < tables_.points(); ++q) {
+    const double mass = density * tables_.weight(cell, q);
+    const double* N = tables_.shape(q);
+    for (int i = 0; i < 3; ++i) {
+      double at_point = 0;
+      for (int b = 0; b < nodes; ++b) at_point += N[b] * a[i * nodes + b];
+      const double pull = mass * scale * config_.body_acceleration[i];
+      for (int b = 0; b < nodes; ++b) {
+        inertia[i * nodes + b] += mass * at_point * N[b];
+        body[i * nodes + b] += pull * N[b];
+      }
+    }
+  }
+}
+
+void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* lift, mfem::Vector* R) {
+  Timers::Scope timer("tangent");
+  const int nodes = tables_.nodes(), n = 3 * nodes;
+  const LocalVectors local(*this, u, step_.u_old);
+  mfem::Vector local_lift, local_R;
+  if (lift) {
+    local_lift.SetSize(space_.GetVSize());
+    local_R.SetSize(space_.GetVSize());
+    space_.GetProlongationMatrix()->Mult(*lift, local_lift);
+    local_R = 0.0;
+  }
+  const bool moving = config_.inertia == Inertia::dynamic && step_.dt > 0;
+  double stiffest = 0;
+  std::vector<double> mass(nodes * nodes), unused(n);
+  for (int cell = 0; cell < space_.GetNE(); ++cell) {
+    double* block = &values_[std::size_t(cell) * n * n];
+    std::fill_n(block, n * n, 0.0);
+    gather(cell, local);
+    kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data());
+    kernel_.add_tangent(cell, material(cell), point_input(), block);
+    for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(block[c * n + c]));
+    if (loads_.on_cell(cell)) loads_.add(cell, step_.time, u_cell_.data(), unused.data(), block);
+    if (moving) {
+      std::fill(mass.begin(), mass.end(), 0.0);
+      kernel_.add_mass(cell, material(cell).density() / (step_.dt * step_.dt), mass.data());
+      for (int i = 0; i < 3; ++i)
+        for (int a = 0; a < nodes; ++a)
+          for (int b = 0; b < nodes; ++b) block[(i * nodes + a) * n + i * nodes + b] += mass[a * nodes + b];
+    }
+    if (lift) constrain(cell, block, &local_lift, &local_R);
+  }
+  if (lift) {
+    mfem::Vector change = to_true(local_R);
+    for (int dof : constraints_.dofs()) change(dof) = 0;
+    *R += change;
+  }
+  mfem::Vector lower, upper;
+  space_.GetParMesh()->GetBoundingBox(lower, upper);
+  upper -= lower;
+  force_floor_ = round_off * titin::max(stiffest) * upper.Normlinf() * std::sqrt(double(space_.GlobalTrueVSize()));
+  Timers::Scope insertion("insert matrix");
+  check(MatSetValuesCOO(K, values_.data(), INSERT_VALUES));
+}
+
+void MuscleSystem::constrain(int cell, double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const {
+  const int n = 3 * tables_.nodes();
+  const int* dofs = &cell_dofs_[cell * n];
+  for (int d = 0; d < n; ++d) {
+    const double lift = constraints_.is_constrained_local(dofs[d]) ? (*local_lift)(dofs[d]) : 0.0;
+    if (lift == 0) continue;
+    for (int c = 0; c < n; ++c) (*local_R)(dofs[c]) += K[c * n + d] * lift;
+  }
+}
+
+/// Says where: the point of the lowest rank that has one. Collective.
+void MuscleSystem::set_domain_error(int cell, int point) {
+  const double mine = cell >= 0 ? rank() : std::numeric_limits<double>::max(), first = min(mine);
+  const bool winner = cell >= 0 && mine == first;
+  std::vector<double> x(3, 0.0);
+  if (winner) {
+    mfem::Vector position(3);
+    auto* map = space_.GetElementTransformation(cell);
+    map->Transform(tables_.rule().IntPoint(std::max(point, 0)), position);
+    x.assign(position.begin(), position.end());
+  }
+  sum(x);
+  domain_error_ = fmt::format("a cell turns inside out (volume ratio not positive) near undeformed ({:.4g}, {:.4g}, {:.4g}) m",
+                              x[0], x[1], x[2]);
+}
+
+}  // namespace titin

@@ -1,0 +1,56 @@
+#include "scene/scene.hpp"
+
+#include "fe/muscle.hpp"
+#include "mesh/mesh.hpp"
+
+namespace titin {
+
+namespace {
+
+enum class Formulation { muscle };
+
+/// The walk through all keys: the same for a scene and for the list of keys.
+struct SceneConfig {
+  std::string title;
+  Formulation formulation = Formulation::muscle;
+  MeshConfig mesh;
+  ClockConfig clock;
+  OutputConfig output;
+  MuscleConfig muscle;
+
+  NamedMesh bind(Section root) {
+    root.read("title", title, {.doc = "one line that says what happens"});
+    root.choose("model", formulation, {{"muscle", Formulation::muscle}}, {.required = true, .doc = "the formulation"});
+    Section mesh_section = root.section("mesh", "a box of hexahedra, or a file");
+    mesh.bind(mesh_section);
+    NamedMesh named = root.describing() ? NamedMesh{} : NamedMesh::read(mesh, mesh_section);
+    Section time = root.section("time", "from 0 to the end by steps");
+    clock.bind(time);
+    Section out = root.section("output", "what is written, and when");
+    output.bind(out);
+    muscle.bind(root, named);
+    root.leave("test");
+    return named;
+  }
+};
+
+}  // namespace
+
+Scene Scene::read(const std::string& file, const std::vector<std::string>& overrides) {
+  Config text = Config::read_file(file, overrides);
+  SceneConfig config;
+  NamedMesh mesh = config.bind(text.root());
+  text.finish();
+  Scene scene{config.title, config.clock, config.output, nullptr, text.resolved()};
+  scene.model = std::make_unique<Muscle>(std::move(mesh), std::move(config.muscle));
+  return scene;
+}
+
+std::vector<KeyRecord> scene_keys() {
+  Config keys = Config::describing();
+  SceneConfig config;
+  config.bind(keys.root());
+  return keys.keys();
+}
+
+}  // namespace titin

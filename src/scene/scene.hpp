@@ -1,0 +1,30 @@
+/// A scene file becomes objects here: the only place where names in text meet formulations.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/config.hpp"
+#include "scene/output.hpp"
+#include "solve/clock.hpp"
+#include "solve/model.hpp"
+
+namespace titin {
+
+/// Everything a run needs.
+struct Scene {
+  std::string title;
+  ClockConfig clock;
+  OutputConfig output;
+  std::unique_ptr<Model> model;
+  std::string resolved;  ///< the scene as it was understood: a scene file that runs the same
+
+  /// Collective. Throws InputError with all that is wrong, before anything large is allocated.
+  static Scene read(const std::string& file, const std::vector<std::string>& overrides);
+};
+
+/// All keys that a scene may hold.
+std::vector<KeyRecord> scene_keys();
+
+}  // namespace titin

@@ -1,0 +1,171 @@
+#include "solve/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace titin {
+
+namespace {
+
+constexpr int max_backtracks = 8;          // smallest trial step: 2^-8 of Newton's
+constexpr double armijo = 1e-4;            // asked decrease of |R|, as usual (Nocedal, Wright 2006, section 3.1)
+constexpr double smallest_cut = 0.1, largest_cut = 0.5;  // of a step length that failed
+
+/// MFEM's view of this rank's part of a PETSc vector; no copy.
+class ReadView {
+ public:
+  explicit ReadView(Vec v) : vec_(v) {
+    PetscInt n;
+    check(VecGetLocalSize(v, &n));
+    check(VecGetArrayRead(v, &data_));
+    view_.SetDataAndSize(const_cast<double*>(data_), n);
+  }
+  ~ReadView() { VecRestoreArrayRead(vec_, &data_); }
+  const mfem::Vector& operator*() const { return view_; }
+
+ private:
+  Vec vec_;
+  const PetscScalar* data_ = nullptr;
+  mfem::Vector view_;
+};
+
+void assign(const mfem::Vector& from, Vec to) {
+  PetscScalar* data;
+  check(VecGetArray(to, &data));
+  std::copy(from.begin(), from.end(), data);
+  check(VecRestoreArray(to, &data));
+}
+
+}  // namespace
+
+void NewtonConfig::bind(Section& s) {
+  s.read("tolerance", tolerance,
+         {.range = {.min = 1e-14, .max = 1e-1}, .doc = "residual force over the sum of the cells' absolute nodal forces"});
+  s.read("max_iterations", max_iterations, {.range = {.min = 1, .max = 1000}, .doc = "of Newton's method in a step"});
+  linear.bind(s);
+}
+
+Newton::Newton(const NewtonConfig& config, NonlinearSystem& system, Mat K) : config_(config), system_(system) {
+  PetscBool symmetric = PETSC_FALSE, known = PETSC_FALSE;
+  check(MatIsSymmetricKnown(K, &known, &symmetric));
+  linear_ = std::make_unique<LinearSolver>(config.linear, K, known && symmetric);
+  check(VecCreateMPI(PETSC_COMM_WORLD, system.size(), PETSC_DECIDE, &u_));
+  check(VecDuplicate(u_, &R_));
+  check(SNESCreate(PETSC_COMM_WORLD, &snes_));
+  check(SNESSetType(snes_, SNESNEWTONLS));
+  check(SNESSetKSP(snes_, linear_->ksp()));
+  check(SNESSetFunction(snes_, R_, form_residual, this));
+  check(SNESSetJacobian(snes_, K, K, form_tangent, this));
+  check(SNESSetConvergenceTest(snes_, test, this, nullptr));
+  check(SNESSetTolerances(snes_, 0, 0, 0, config.max_iterations, PETSC_MAX_INT));
+  SNESLineSearch line_search;
+  check(SNESGetLineSearch(snes_, &line_search));
+  check(SNESLineSearchSetType(line_search, SNESLINESEARCHSHELL));
+  check(SNESLineSearchShellSetUserFunc(line_search, search, this));
+  check(SNESSetFromOptions(snes_));
+}
+
+Newton::~Newton() {
+  SNESDestroy(&snes_);
+  VecDestroy(&u_);
+  VecDestroy(&R_);
+}
+
+NewtonResult Newton::solve(mfem::Vector& u) {
+  result_ = {};
+  outside_domain_ = false;
+  assign(u, u_);
+  SNESConvergedReason reason;
+  do {  // once more, with a new factorisation, if an old one was no use
+    PetscInt iterations, krylov;
+    check(SNESSolve(snes_, nullptr, u_));
+    check(SNESGetConvergedReason(snes_, &reason));
+    check(SNESGetIterationNumber(snes_, &iterations));
+    check(SNESGetLinearSolveIterations(snes_, &krylov));
+    result_.iterations += iterations;
+    result_.krylov += krylov;
+  } while (reason == SNES_DIVERGED_LINEAR_SOLVE && linear_->forget_reused());
+  u = *ReadView(u_);
+  if (reason <= 0) result_.failure = reason_in_words(reason);
+  return result_;
+}
+
+bool Newton::evaluate(Vec u, Vec R) {
+  mfem::Vector residual(system_.size());
+  outside_domain_ = !system_.residual(*ReadView(u), residual);
+  assign(residual, R);
+  return !outside_domain_;
+}
+
+PetscErrorCode Newton::form_residual(SNES snes, Vec u, Vec R, void* self) {
+  if (!static_cast<Newton*>(self)->evaluate(u, R)) check(SNESSetFunctionDomainError(snes));
+  return 0;
+}
+
+PetscErrorCode Newton::form_tangent(SNES, Vec u, Mat, Mat K, void* context) {
+  auto* self = static_cast<Newton*>(context);
+  self->system_.tangent(*ReadView(u), K);
+  self->linear_->matrix_changed();
+  return 0;
+}
+
+PetscErrorCode Newton::test(SNES, PetscInt, PetscReal, PetscReal, PetscReal norm, SNESConvergedReason* reason, void* context) {
+  auto* self = static_cast<Newton*>(context);
+  const double scale = self->system_.force_scale();
+  self->result_.residual = scale > 0 ? norm / scale : norm;
+  self->result_.residuals.push_back(self->result_.residual);
+  *reason = SNES_CONVERGED_ITERATING;
+  if (std::isnan(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
+  else if (norm <= self->config_.tolerance * scale) *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  return 0;
+}
+
+PetscErrorCode Newton::search(SNESLineSearch line_search, void* self) { return static_cast<Newton*>(self)->backtrack(line_search); }
+
+/// u <- u - s y with the first s in {1, ...} inside the domain of R that lowers |R|; else the best one seen.
+PetscErrorCode Newton::backtrack(SNESLineSearch line_search) {
+  Vec u, R, y, trial, trial_R;
+  check(SNESLineSearchGetVecs(line_search, &u, &R, &y, &trial, &trial_R));
+  PetscReal start, y_norm, u_norm;
+  check(VecNorm(R, NORM_2, &start));
+  double s = 1, best = 0, best_norm = PETSC_INFINITY;
+  const auto evaluate_at = [&](double step) {
+    check(VecWAXPY(trial, -step, y, u));
+    PetscReal norm = PETSC_INFINITY;
+    if (evaluate(trial, trial_R)) check(VecNorm(trial_R, NORM_2, &norm));
+    return norm;
+  };
+  for (int i = 0; i <= max_backtracks; ++i) {
+    const double norm = evaluate_at(s);
+    if (norm < best_norm) best = s, best_norm = norm;
+    if (norm <= (1 - armijo * s) * start) break;
+    // minimum of the parabola through |R|^2 at 0 (with its Newton slope -2 |R|^2) and at s
+    const double curved = std::isfinite(norm) ? start * start * s / (norm * norm / s - start * start / s + 2 * start * start) : 0;
+    s *= std::clamp(std::isfinite(norm) ? curved / s : 0.0, smallest_cut, largest_cut);
+  }
+  if (!std::isfinite(best_norm)) return SNESLineSearchSetReason(line_search, SNES_LINESEARCH_FAILED_DOMAIN);
+  if (best != s || outside_domain_) best_norm = evaluate_at(best);
+  check(VecCopy(trial, u));
+  check(VecCopy(trial_R, R));
+  check(VecNorm(u, NORM_2, &u_norm));
+  check(VecNorm(y, NORM_2, &y_norm));
+  check(SNESLineSearchSetNorms(line_search, u_norm, best_norm, best * y_norm));
+  check(SNESLineSearchSetLambda(line_search, best));
+  return SNESLineSearchSetReason(line_search, SNES_LINESEARCH_SUCCEEDED);
+}
+
+std::string Newton::reason_in_words(SNESConvergedReason reason) const {
+  switch (reason) {
+    case SNES_DIVERGED_FUNCTION_DOMAIN: return system_.domain_error();
+    case SNES_DIVERGED_LINE_SEARCH: return "no step along Newton's direction stays admissible: " + system_.domain_error();
+    case SNES_DIVERGED_LINEAR_SOLVE: return linear_->failure();
+    case SNES_DIVERGED_FNORM_NAN: return "the residual is not a finite number";
+    case SNES_DIVERGED_MAX_IT:
+      return fmt::format("residual {:.1e} is above the tolerance {:.1e} after {} Newton iterations", result_.residual,
+                         config_.tolerance, result_.iterations);
+    default: return fmt::format("Newton's method ended with SNES reason {}", static_cast<int>(reason));
+  }
+}
+
+}  // namespace titin

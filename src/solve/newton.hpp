@@ -1,0 +1,72 @@
+/// Newton's method by PETSc's SNES on a nonlinear system R(u) = 0, with a line search that knows the domain of R.
+#pragma once
+
+#include <mfem.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/config.hpp"
+#include "solve/linear.hpp"
+
+namespace titin {
+
+/// What Newton's method sees of a problem. Vectors are true dofs of this rank. All calls are collective.
+class NonlinearSystem {
+ public:
+  virtual ~NonlinearSystem() = default;
+  virtual int size() const = 0;
+  /// R(u), zero at constrained dofs. Returns false (on all ranks) when u is outside the domain of R.
+  virtual bool residual(const mfem::Vector& u, mfem::Vector& R) = 0;
+  /// dR/du with unit rows and columns at constrained dofs.
+  virtual void tangent(const mfem::Vector& u, Mat K) = 0;
+  /// The force that a residual is measured against, at the last u of residual() [N].
+  virtual double force_scale() const = 0;
+  /// Why residual() was false, in words.
+  virtual std::string domain_error() const = 0;
+};
+
+struct NewtonConfig {
+  double tolerance = 1e-6;
+  int max_iterations = 25;
+  LinearConfig linear;
+  void bind(Section& s);
+};
+
+struct NewtonResult {
+  int iterations = 0, krylov = 0;
+  double residual = 0;            ///< over its scale
+  std::vector<double> residuals;  ///< of each iterate, the first included
+  std::string failure;            ///< empty when it converged
+};
+
+class Newton {
+ public:
+  /// `K` is the one matrix of the whole run.
+  Newton(const NewtonConfig& config, NonlinearSystem& system, Mat K);
+  ~Newton();
+  Newton(const Newton&) = delete;
+
+  /// Solves from u, which holds the prescribed values; overwrites it.
+  NewtonResult solve(mfem::Vector& u);
+  LinearSolver& linear() { return *linear_; }
+
+ private:
+  static PetscErrorCode form_residual(SNES, Vec u, Vec R, void* self);
+  static PetscErrorCode form_tangent(SNES, Vec u, Mat, Mat K, void* self);
+  static PetscErrorCode test(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal norm, SNESConvergedReason*, void* self);
+  static PetscErrorCode search(SNESLineSearch, void* self);
+  PetscErrorCode backtrack(SNESLineSearch line_search);
+  bool evaluate(Vec u, Vec R);
+  std::string reason_in_words(SNESConvergedReason reason) const;
+
+  NewtonConfig config_;
+  NonlinearSystem& system_;
+  std::unique_ptr<LinearSolver> linear_;
+  SNES snes_ = nullptr;
+  Vec u_ = nullptr, R_ = nullptr;
+  NewtonResult result_;
+  bool outside_domain_ = false;
+};
+
+}  // namespace titin
