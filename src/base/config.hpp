@@ -1,7 +1,7 @@
 /// Scene files: TOML with units into typed structs, every key with its unit, default, range and sentence.
 ///
-/// A struct says its keys once, in `bind`; reading a scene, printing `titin keys` and writing resolved.toml all walk that
-/// same function:
+/// A struct says its keys once, in `bind`; reading a scene, printing `titin keys` and writing resolved.toml all walk
+/// that same function:
 ///
 ///     struct TimeConfig {
 ///       double end = 0, step = 0;
@@ -68,6 +68,7 @@ class InputError : public std::runtime_error {
 };
 
 class Config;
+struct SceneText;
 
 /// A (sub)table of a scene while it is being walked. Cheap to copy.
 class Section {
@@ -81,13 +82,14 @@ class Section {
   void read(std::string_view name, bool& value, Key key);
   void read(std::string_view name, std::string& value, Key key);
   void read(std::string_view name, std::vector<std::string>& value, Key key);  ///< a list, or one string
-  /// A constant ("3 mm") or {time = "0, 0.1 s", value = "0, 3 mm"} or {file = "strain.csv"} (two columns: time in s, value
-  /// in the key's SI unit), the latter two with an optional `scale` quantity that multiplies pure-number values.
+  /// A constant ("3 mm") or {time = "0, 0.1 s", value = "0, 3 mm"} or {file = "strain.csv"} (two columns: time in s,
+  /// value in the key's SI unit), the latter two with an optional `scale` quantity that multiplies pure-number values.
   void read(std::string_view name, Table& value, Key key);
 
   /// One of a few words, each with its enumerator.
   template <class Enum>
-  void choose(std::string_view name, Enum& value, std::initializer_list<std::pair<const char*, Enum>> choices, Key key) {
+  void choose(std::string_view name, Enum& value, std::initializer_list<std::pair<const char*, Enum>> choices,
+              Key key) {
     std::vector<std::string> words;
     int index = -1;
     for (const auto& [word, e] : choices) {
@@ -102,9 +104,14 @@ class Section {
 
   /// Sub-table; present or not, the keys in it are walked. `doc` heads it in `titin keys`.
   Section section(std::string_view name, std::string_view doc = "");
-  /// Sub-tables whose names the user gives ([boundary.NAME]); `walk(name, section)` for each, in file order. When the keys
-  /// are described, once with the name "<NAME>".
+  /// Sub-tables whose names the user gives ([boundary.NAME]); `walk(name, section)` for each, in file order. When the
+  /// keys are described, once with the name "<NAME>".
   void each(std::string_view name, std::string_view doc, const std::function<void(const std::string&, Section)>& walk);
+
+  /// Names of the keys in this table that the scene gives, in file order: for tables whose keys the user names.
+  std::vector<std::string> names() const;
+  /// A table that others read (the test runner, say): known here, its keys not judged.
+  void leave(std::string_view name);
 
   bool has(std::string_view name) const;  ///< does the scene say it?
   bool describing() const;                ///< true when keys are being listed and no scene is there
@@ -116,36 +123,33 @@ class Section {
 
  private:
   friend class Config;
-  struct Node;  // TOML table being read, or null
-  Section(Config& config, std::string path, std::shared_ptr<Node> node);
-  Config* config_;
+  Section(std::shared_ptr<SceneText> scene, std::string path) : scene_(std::move(scene)), path_(std::move(path)) {}
+  std::shared_ptr<SceneText> scene_;
   std::string path_;
-  std::shared_ptr<Node> node_;
 };
 
-/// A scene's text with its overrides. Not collective: every rank holds the same text (base/parallel broadcasts it).
+/// A scene's text with its overrides. Every rank holds the same text and walks it alike; files that it names are read
+/// collectively (base/text_file.hpp).
 class Config {
  public:
-  /// Parses `text` of the file called `file` and applies "key=value" `overrides`, whose right side is what the file would
-  /// say; a bare word or quantity may drop its quotation marks. Throws InputError when it is no TOML.
+  /// Reads the scene file itself. Collective.
+  static Config read_file(const std::string& file, const std::vector<std::string>& overrides = {});
+  /// Parses `text` of the file called `file` and applies "key=value" `overrides`, whose right side is what the file
+  /// would say; a bare word or quantity may drop its quotation marks. Throws InputError when it is no TOML.
   Config(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {});
   static Config describing();  ///< no scene: lists keys
-  ~Config();
-  Config(Config&&) noexcept;
 
   Section root();
-  /// Call after everything was read: keys that nobody asked for become errors with "did you mean", and if there is any error
-  /// at all, throws InputError with all of them.
+  /// Call after everything was read: keys that nobody asked for become errors with "did you mean", and if there is any
+  /// error at all, throws InputError with all of them.
   void finish();
   const std::vector<KeyRecord>& keys() const;
   /// The scene as it was understood, in SI units, defaults included: a scene file that runs the same.
   std::string resolved() const;
 
  private:
-  friend class Section;
-  struct State;
-  std::unique_ptr<State> state_;
   Config();
+  std::shared_ptr<SceneText> scene_;
 };
 
 }  // namespace titin

@@ -12,11 +12,13 @@ enum class Level { quiet, normal, verbose, debug };  // -q, nothing, -v, -vv
 
 void set_level(Level level);
 Level level();
-/// Also writes everything from now on to this file (rank 0), whatever the level; "" closes it.
-void open_file(const std::string& path);
+/// Also appends everything from now on to this file (rank 0), whatever the level; "" closes it. False when it cannot
+/// be.
+bool open_file(const std::string& path);
 
 void write(Level level, std::string_view line);  ///< one line, shown if the level is at least this
 void warning(std::string_view line);             ///< shown always, to stderr, counted
+void error(std::string_view line);               ///< shown always, to stderr
 int warnings();                                  ///< how many so far: for run.json
 
 template <class... Args>

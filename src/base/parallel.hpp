@@ -14,6 +14,9 @@ class MpiSession {
   MpiSession(int& argc, char**& argv);
   ~MpiSession();
   MpiSession(const MpiSession&) = delete;
+
+ private:
+  bool owns_ = false;
 };
 
 int rank(MPI_Comm comm = MPI_COMM_WORLD);   // not collective
@@ -27,5 +30,7 @@ long sum(long x, MPI_Comm comm = MPI_COMM_WORLD);
 void sum(std::vector<double>& x, MPI_Comm comm = MPI_COMM_WORLD);  ///< in place, elementwise
 bool any_of(bool x, MPI_Comm comm = MPI_COMM_WORLD);
 std::string broadcast(std::string text, MPI_Comm comm = MPI_COMM_WORLD);  ///< rank 0's
+/// Ends all ranks at once, for an error that only some of them met. Not collective.
+[[noreturn]] void abort_all(int exit_code);
 
 }  // namespace titin

@@ -1,6 +1,7 @@
 /// CPU and wall time by phase. Phases are exclusive: a phase opened inside another pauses the outer one.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 
@@ -23,8 +24,8 @@ class Timers {
   static const std::map<std::string, Phase>& phases();
 };
 
-double cpu_seconds();           ///< this process, all threads
-double wall_seconds();          ///< since the program started
-std::size_t peak_rss_bytes();   ///< this process
+double cpu_seconds();          ///< this process, all threads
+double wall_seconds();         ///< since the program started
+std::size_t peak_rss_bytes();  ///< this process
 
 }  // namespace titin

@@ -1,0 +1,274 @@
+#include "base/scene_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/words.hpp"
+
+namespace titin {
+namespace {
+
+bool is_bare(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
+  });
+}
+
+bool is_below(const std::string& path, const std::string& table) {
+  return path.size() > table.size() && path.compare(0, table.size(), table) == 0 && path[table.size()] == '.';
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+constexpr int deepest_key = 32;  // dots in one key: a scene has five; thousands would overflow the stack of the parser
+
+constexpr std::size_t most_messages = 50;
+
+/// Line with a key of too many dots, or 0. Strings and comments may hold any number of dots.
+int line_of_deep_key(std::string_view text) {
+  int line = 1, dots = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '"' || c == '\'') {
+      for (++i; i < text.size() && text[i] != c && text[i] != '\n'; ++i)
+        if (text[i] == '\\' && c == '"') ++i;
+      line += i < text.size() && text[i] == '\n';
+    } else if (c == '\n') {
+      ++line, dots = 0;
+    } else if (std::string_view(",=[]{}").find(c) != std::string_view::npos) {
+      dots = 0;
+    } else if (c == '.' && ++dots > deepest_key) {
+      return line;
+    }
+  }
+  return 0;
+}
+
+std::string place_text(const std::string& file, const Place& place) {
+  if (place.command_line) return "command line";
+  return place.line == 0 ? file : fmt::format("{}:{}:{}", file, place.line, place.column);
+}
+
+Place place_of(const toml::source_region& source) { return {false, source.begin.line, source.begin.column}; }
+
+std::string message(const std::string& file, const Place& place, const std::string& path, const std::string& text) {
+  return fmt::format("{}: {}{}{}", place_text(file, place), path, path.empty() ? "" : ": ", text);
+}
+
+[[noreturn]] void fail_override(const std::string& text, const std::string& problem, const std::string& advice) {
+  throw InputError({fmt::format("command line: {}: {}; {}", in_quotes(text), problem, advice)});
+}
+
+/// "a.\"x+\".b" to its names. Dots part them; a quoted name may hold any character.
+std::vector<std::string> names_of(std::string_view key, const std::string& whole) {
+  std::vector<std::string> names;
+  std::string name;
+  char quote = 0;
+  for (const char c : key) {
+    if (quote ? c == quote : c == '"' || c == '\'')
+      quote = quote ? 0 : c;
+    else if (c == '.' && !quote)
+      names.push_back(std::move(name)), name.clear();
+    else
+      name += c;
+  }
+  names.push_back(std::move(name));
+  if (quote || contains(names, "") || names.size() > deepest_key)
+    fail_override(whole, "is no key=value", "write for example time.step=\"25 ms\"");
+  return names;
+}
+
+std::size_t first_equal_sign(std::string_view text) {
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote ? c == quote : c == '"' || c == '\'')
+      quote = quote ? 0 : c;
+    else if (c == '=' && !quote)
+      return i;
+  }
+  return std::string_view::npos;
+}
+
+/// The right side of an override as {v = ...}: TOML if it is, else a string, which saves the user the quotation marks.
+toml::table value_of(std::string_view value, const std::string& whole) {
+  try {
+    if (line_of_deep_key(value)) fail_override(whole, "nests too deeply", "write plain keys and values");
+    toml::table parsed = toml::parse(fmt::format("v = {}", value));
+    if (parsed.size() == 1) return parsed;
+  } catch (const toml::parse_error& error) {
+    if (std::string_view("[{\"'").find(value.front()) != std::string_view::npos)
+      fail_override(whole, fmt::format("its right side is not valid TOML ({})", error.description()),
+                    "mind the quotation marks that the shell takes away");
+  }
+  return toml::table{{"v", std::string(value)}};
+}
+
+}  // namespace
+
+std::string join_path(const std::string& table, std::string_view name) {
+  const bool placeholder = !name.empty() && name.front() == '<' && name.back() == '>';  // of titin keys
+  return fmt::format("{}{}{}", table, table.empty() ? "" : ".",
+                     is_bare(name) || placeholder ? std::string(name) : toml_string(name));
+}
+
+void SceneText::parse(const std::string& text, const std::vector<std::string>& overrides) {
+  if (const int line = line_of_deep_key(text))
+    throw InputError(
+        {fmt::format("{}:{}: a key with more than {} dots; name tables less deeply", file, line, deepest_key)});
+  try {
+    root = toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    throw InputError({message(file, place_of(error.source()), "",
+                              fmt::format("not valid TOML: {}; correct this line", error.description()))});
+  }
+  std::vector<std::string> problems;
+  for (const std::string& setting : overrides) try {
+      override_with(setting);
+    } catch (const InputError& error) {
+      problems.push_back(error.messages().front());
+    }
+  if (!problems.empty()) throw InputError(problems);
+  walk("", &root);
+}
+
+void SceneText::override_with(const std::string& text) {
+  const auto equal = first_equal_sign(text);
+  if (equal == std::string::npos) fail_override(text, "is no key=value", "write for example time.step=\"25 ms\"");
+  const auto names = names_of(trim(std::string_view(text).substr(0, equal)), text);
+  const auto value = trim(std::string_view(text).substr(equal + 1));
+  if (value.empty()) fail_override(text, "has no value", "write key=value");
+  toml::table parsed = value_of(value, text);
+  toml::table* table = &root;
+  std::string path;
+  for (std::size_t i = 0; i + 1 < names.size(); ++i) {
+    path = join_path(path, names[i]);
+    auto [it, inserted] = table->insert(names[i], toml::table{});
+    if (!it->second.is_table()) fail_override(text, fmt::format("{} is not a table", path), "override it as a whole");
+    table = it->second.as_table();
+  }
+  table->erase(names.back());
+  parsed.get("v")->visit([&](auto& node) { table->insert(names.back(), std::move(node)); });
+  overridden.insert(join_path(path, names.back()));
+}
+
+const toml::node* SceneText::find(const std::string& table, std::string_view name) const {
+  const auto it = tables.find(table);
+  return it == tables.end() ? nullptr : it->second->get(name);
+}
+
+bool SceneText::from_command_line(const std::string& path) const {
+  return std::any_of(overridden.begin(), overridden.end(),
+                     [&](const std::string& set) { return path == set || is_below(path, set); });
+}
+
+Place SceneText::place(const std::string& table, std::string_view name) const {
+  if (from_command_line(name.empty() ? table : join_path(table, name))) return {true, 0, 0};
+  if (const toml::node* node = find(table, name)) return place_of(node->source());
+  const auto it = tables.find(table);
+  return it == tables.end() || table.empty() ? Place{} : place_of(it->second->source());
+}
+
+void SceneText::complain(const std::string& table, std::string_view name, const std::string& problem,
+                         const std::string& advice) {
+  if (describing) return;
+  complaints.push_back({place(table, name), name.empty() ? table : join_path(table, name),
+                        advice.empty() ? problem : fmt::format("{}; {}", problem, advice), false});
+}
+
+void SceneText::complain_missing(const std::string& table, std::string_view name, const std::string& text) {
+  const std::string path = join_path(table, name);
+  if (describing || std::any_of(not_tables.begin(), not_tables.end(), [&](auto& t) { return is_below(path, t); }))
+    return;
+  complaints.push_back({place(table, name), path, text, true});
+}
+
+void SceneText::walk(const std::string& table, const toml::table* node) {
+  if (!contains(walked, table)) walked.push_back(table);
+  known[table];
+  if (node) tables[table] = node;
+}
+
+void SceneText::ask(const std::string& table, std::string_view name) {
+  auto& names = known[table];
+  if (!contains(names, name)) names.emplace_back(name);
+}
+
+void SceneText::record(KeyRecord record) {
+  const auto same = [&](const KeyRecord& r) { return r.path == record.path; };
+  if (std::none_of(records.begin(), records.end(), same)) records.push_back(std::move(record));
+}
+
+void SceneText::keep(ResolvedKey key) {
+  const auto same = [&](const ResolvedKey& k) { return k.table == key.table && k.name == key.name; };
+  const auto it = std::find_if(resolved.begin(), resolved.end(), same);
+  if (it == resolved.end())
+    resolved.push_back(std::move(key));
+  else
+    *it = std::move(key);
+}
+
+void SceneText::forget(const std::string& table) {
+  std::erase(walked, table);
+  std::erase_if(resolved, [&](const ResolvedKey& key) { return key.table == table; });
+  std::erase_if(records, [&](const KeyRecord& record) { return is_below(record.path, table); });
+}
+
+void SceneText::unknown(const std::string& table, const toml::key& key) {
+  const std::string path = join_path(table, key.str());
+  std::string meant = nearest(key.str(), known[table]), advice;
+  if (!meant.empty()) {  // then that one is misspelt, not missing
+    const std::string right = join_path(table, meant);
+    std::erase_if(complaints, [&](auto& c) { return c.missing && (c.path == right || is_below(c.path, right)); });
+  }
+  for (const auto& [other, names] : known)
+    if (meant.empty() && contains(names, key.str())) meant = join_path(other, key.str());
+  if (!meant.empty())
+    advice = fmt::format("did you mean \"{}\"?", meant);
+  else if (!known[table].empty())
+    advice = fmt::format("known here: {}", fmt::join(known[table], ", "));
+  else
+    advice = "remove it";
+  const Place where = from_command_line(path) ? Place{true, 0, 0} : place_of(key.source());
+  complaints.push_back({where, path, "unknown key; " + advice, false});
+}
+
+void SceneText::find_unknown(const std::string& table) {
+  const auto it = tables.find(table);
+  if (it == tables.end()) return;
+  const std::vector<std::string> names = known[table];
+  for (const auto& [key, node] : *it->second) {
+    const std::string path = join_path(table, key.str());
+    if (contains(names, key.str()))
+      find_unknown(path);
+    else if (!undecided.count(table))
+      unknown(table, key);
+  }
+}
+
+std::vector<std::string> SceneText::messages() const {
+  auto sorted = complaints;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Complaint& a, const Complaint& b) {
+    return std::tie(a.place.command_line, a.place.line, a.place.column) <
+           std::tie(b.place.command_line, b.place.line, b.place.column);
+  });
+  std::vector<std::string> texts;
+  for (const Complaint& c : sorted) {
+    if (texts.size() == most_messages) {
+      texts.push_back(fmt::format("and {} more; correct these first", sorted.size() - most_messages));
+      break;
+    }
+    std::string text = message(file, c.place, c.path, c.text);
+    if (!contains(texts, text)) texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+}  // namespace titin
