@@ -1,7 +1,8 @@
 /// A material: a sum of terms (matrix, fibres, active, ...) and a volumetric law; the only face that formulations see.
 ///
-/// A term that is written in invariants (materials/invariants.hpp) only turns numbers into numbers: invariants in, first and
-/// second derivatives of its energy out. The material sums those numbers over its terms and builds the tensors once.
+/// A term that is written in invariants (materials/invariants.hpp) only turns numbers into numbers: invariants in,
+/// first and second derivatives of its energy out. The material sums those numbers over its terms and builds the
+/// tensors once.
 #pragma once
 
 #include <memory>
@@ -9,25 +10,20 @@
 #include <vector>
 
 #include "base/config.hpp"
+#include "materials/invariants.hpp"
 #include "math/tensor.hpp"
 
 namespace titin {
-
-/// How the fibre's rate of stretch is taken from a step (t_n, t_n+1).
-enum class FibreRate {
-  none,                ///< quasi-static: rate 0
-  stretch_difference,  ///< (lambda_n+1 - lambda_n) / dt: symmetric tangent
-  velocity_gradient,   ///< a . dev(sym((F - F_n) F^-1 / dt)) a / lambda, a = Fbar a0: unsymmetric tangent
-};
 
 /// n points of one material. Pointers stay the caller's.
 struct PointInput {
   int n = 0;
   const Mat3* F = nullptr;      ///< [n] deformation gradient at t_n+1
   const Mat3* F_old = nullptr;  ///< [n] at t_n; may be null when rate is none
-  const Vec3* fibre = nullptr;  ///< [n] unit fibre directions in the reference configuration; may be null without fibres
-  double time = 0;              ///< t_n+1 [s]: time curves (activation) are taken here
-  double dt = 0;                ///< [s]
+  const Vec3* fibre =
+      nullptr;      ///< [n] unit fibre directions in the reference configuration; may be null without fibres
+  double time = 0;  ///< t_n+1 [s]: time curves (activation) are taken here
+  double dt = 0;    ///< [s]; a rate needs dt > 0
   FibreRate rate = FibreRate::none;
 };
 
@@ -43,19 +39,20 @@ class Material {
   static std::shared_ptr<const Material> read(Section section);
   virtual ~Material() = default;
 
-  virtual double density() const = 0;          ///< reference density [kg/m^3]
-  virtual Vec3 fibre() const = 0;              ///< unit reference direction; {0,0,0} without fibres
+  virtual double density() const = 0;  ///< reference density [kg/m^3]
+  virtual Vec3 fibre() const = 0;      ///< unit reference direction; {0,0,0} without fibres
   virtual bool has_fibres() const = 0;
   virtual bool symmetric_tangent(FibreRate rate) const = 0;
   virtual const std::vector<TermInfo>& terms() const = 0;
 
-  /// First Piola stress P [Pa] (n values) of all terms but the volumetric law and, unless null, its derivative A = dP/dF.
+  /// First Piola stress P [Pa] (n values) of all terms but the volumetric law and, unless null, its derivative A =
+  /// dP/dF. NaN where det F <= 0: a caller that meets such points gives up the step before.
   virtual void stress(const PointInput& in, Mat3* P, Mat9* A) const = 0;
   /// The same of one term alone (weights of mixtures included).
   virtual void term_stress(int term, const PointInput& in, Mat3* P) const = 0;
   /// Stored energy per reference volume [J/m^3] of one term (0 for terms that store none).
   virtual void term_energy(int term, const PointInput& in, double* W) const = 0;
-  /// Output of fibre points: stretch, rate of stretch [1/s] and activation (0 where a material has none).
+  /// Output of fibre points: stretch |F a0|, its rate [1/s] by the rate's own definition, and activation (0 without).
   virtual void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const = 0;
 
   struct Volumetric {

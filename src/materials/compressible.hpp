@@ -1,0 +1,14 @@
+/// A material's whole stress where the volume is that of the deformation itself (no separate dilatation field): adds
+/// P = J U'(J) F^-T of the volumetric law and its derivative. [Pa]
+#pragma once
+
+#include "materials/material.hpp"
+
+namespace titin {
+
+/// Material::stress plus the volumetric law at J = det F.
+void whole_stress(const Material& material, const PointInput& in, Mat3* P, Mat9* A);
+/// Stored energy of all terms plus U(J) [J/m^3].
+void whole_energy(const Material& material, const PointInput& in, double* W);
+
+}  // namespace titin

@@ -1,0 +1,110 @@
+/// The invariants that energies are written in, their gradients, and stress and tangent from an energy's scalar
+/// derivatives.
+///
+/// With F the deformation gradient, J = det F, C = F^T F, a0 the fibre direction, f = F a0 and Cbar = J^-2/3 C:
+///
+///     I1 = tr Cbar,   I2 = (I1^2 - tr Cbar^2) / 2,   J,   I4 = a0 . Cbar a0  (or a0 . C a0: "full"),   r = rate of
+///     sqrt(I4)
+///
+/// For W(I_a):  P = sum W_a G_a  and  A = dP/dF = sum W_a D_a + sum W_ab G_a (x) G_b,  G_a = dI_a/dF, D_a = dG_a/dF.
+/// The rate r enters as one more invariant that has a gradient and no conjugate force (W_r = 0): a fibre stress that
+/// depends on it contributes W_4r, and A loses its symmetry unless r is a function of I4 alone. Values are carried as
+/// what they exceed their value at rest (I1 - 3, J - 1, ...) and come from the Green strain, so that small strains keep
+/// their digits. All is NaN where J <= 0. Formulas: Holzapfel, Nonlinear Solid Mechanics (2000), ch. 6; derived anew in
+/// docs/theory/materials.md. SI units.
+#pragma once
+
+#include <array>
+
+#include "math/lanes.hpp"
+#include "math/tensor.hpp"
+
+namespace titin {
+
+/// How the fibre's rate of stretch is taken from a step (t_n, t_n+1).
+enum class FibreRate {
+  none,                ///< quasi-static: rate 0
+  stretch_difference,  ///< (lambda_n+1 - lambda_n) / dt: symmetric tangent
+  velocity_gradient,   ///< a . dev(sym((F - F_n) F^-1 / dt)) a / lambda, a = Fbar a0: unsymmetric tangent
+};
+
+/// Which fibre invariants: of Cbar (stress is a deviator) or of C.
+enum class FibreMeasure { isochoric, full };
+
+enum class Invariant { I1, I2, J, I4, rate };
+inline constexpr int invariant_count = 5;
+constexpr int index(Invariant a) { return static_cast<int>(a); }
+
+template <class T>
+using PerInvariant = std::array<T, invariant_count>;
+template <class T>
+using PerPair = std::array<PerInvariant<T>, invariant_count>;
+
+/// A few of the invariants.
+class InvariantSet {
+ public:
+  constexpr InvariantSet() = default;
+  constexpr void insert(Invariant a) { bits_ |= 1u << index(a); }
+  constexpr void insert(InvariantSet s) { bits_ |= s.bits_; }
+  constexpr void erase(Invariant a) { bits_ &= ~(1u << index(a)); }
+  constexpr bool has(Invariant a) const { return bits_ >> index(a) & 1u; }
+
+ private:
+  unsigned bits_ = 0;
+};
+
+/// What the invariants of a point depend on besides F and the fibre.
+struct FibreOptions {
+  FibreMeasure measure = FibreMeasure::isochoric;
+  FibreRate rate = FibreRate::none;
+  double dt = 0;  ///< [s]; a rate needs dt > 0
+};
+
+/// A point's deformation, ready for values and gradients. T is a number, or Lanes for several points at once.
+template <class T>
+struct Kinematics {
+  Tensor3<T> F, Ft, E;  ///< Ft = F^-T; E = Green strain
+  T J_1, J;             ///< J - 1 without cancellation, J
+  T y;                  ///< J^-1/3
+  Vector3<T> a0, f;     ///< fibre direction and F a0
+  T m, aEa;             ///< f . f and a0 . E a0
+  FibreOptions options;
+  T rate = 0;         ///< of the stretch [1/s]
+  Tensor3<T> G_rate;  ///< its gradient; set for FibreRate::velocity_gradient only
+};
+
+/// `F_old` and `a0` are looked at only when `used` says so.
+template <class T>
+Kinematics<T> kinematics(const Tensor3<T>& F, const Tensor3<T>& F_old, const Vector3<T>& a0, InvariantSet used,
+                         const FibreOptions& options);
+
+/// The invariants' excess over rest: I1 - 3, I2 - 3, J - 1, I4 - 1, rate.
+template <class T>
+PerInvariant<T> values(const Kinematics<T>& k, InvariantSet used);
+
+/// G_a of the used invariants (the rate's only for FibreRate::velocity_gradient; see chain_rate).
+template <class T>
+PerInvariant<Tensor3<T>> gradients(const Kinematics<T>& k, InvariantSet used);
+
+/// Derivatives of the summed energy at a point: first[a] = W_a, second[a][b] = W_ab, not symmetric where a rate is
+/// used.
+template <class T>
+struct EnergyDerivatives {
+  PerInvariant<T> first{};
+  PerPair<T> second{};
+};
+
+/// Where the rate is a function of I4 (stretch difference), its derivatives become derivatives by I4: W_44 += W_4r
+/// dr/dI4.
+template <class T>
+void chain_rate(const Kinematics<T>& k, EnergyDerivatives<T>& W);
+
+/// P [Pa] from first derivatives.
+template <class T>
+Tensor3<T> assemble_stress(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W);
+/// P and A [Pa].
+template <class T>
+Tensor3<T> assemble_tangent(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W,
+                            std::array<T, 81>& A);
+
+}  // namespace titin

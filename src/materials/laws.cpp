@@ -1,0 +1,57 @@
+/// The list of laws: one line each, and nothing else to do for a new one.
+#include "materials/collagen_table.hpp"
+#include "materials/hill_active.hpp"
+#include "materials/hill_passive.hpp"
+#include "materials/mooney_rivlin.hpp"
+#include "materials/neo_hookean.hpp"
+#include "materials/volumetric.hpp"
+#include "materials/yeoh.hpp"
+
+namespace titin {
+namespace detail {
+
+// Functions' statics, because laws register before main in no fixed order.
+std::vector<LawEntry>& law_list() {
+  static std::vector<LawEntry> list;
+  return list;
+}
+std::vector<VolumetricEntry>& volumetric_list() {
+  static std::vector<VolumetricEntry> list;
+  return list;
+}
+
+bool add(LawEntry entry) {
+  law_list().push_back(std::move(entry));
+  return true;
+}
+bool add(VolumetricEntry entry) {
+  volumetric_list().push_back(std::move(entry));
+  return true;
+}
+
+}  // namespace detail
+
+const std::vector<LawEntry>& law_entries() { return detail::law_list(); }
+const std::vector<VolumetricEntry>& volumetric_entries() { return detail::volumetric_list(); }
+
+namespace {
+
+template <class Entry>
+LawInfo described(const Entry& entry) {
+  LawInfo info = entry.info;
+  Config config = Config::describing();
+  entry.read(config.root());
+  info.parameters = config.keys();
+  return info;
+}
+
+}  // namespace
+
+std::vector<LawInfo> laws() {
+  std::vector<LawInfo> all;
+  for (const LawEntry& entry : law_entries()) all.push_back(described(entry));
+  for (const VolumetricEntry& entry : volumetric_entries()) all.push_back(described(entry));
+  return all;
+}
+
+}  // namespace titin

@@ -1,0 +1,96 @@
+/// How a scene describes a material: [materials.NAME].
+#include "materials/material.hpp"
+
+#include <algorithm>
+
+#include "materials/sum_material.hpp"
+
+namespace titin {
+namespace {
+
+template <class Entry>
+std::vector<std::string> names(const std::vector<Entry>& entries) {
+  std::vector<std::string> list;
+  for (const Entry& e : entries) list.push_back(e.info.name);
+  return list;
+}
+
+/// The entry that `law = "..."` names; null after an error and when keys are listed.
+template <class Entry>
+const Entry* choose_law(Section& s, const std::vector<Entry>& entries, const char* preferred, const char* doc) {
+  const std::vector<std::string> words = names(entries);
+  int chosen = -1;
+  if (preferred) chosen = static_cast<int>(std::find(words.begin(), words.end(), preferred) - words.begin());
+  s.choose_word("law", chosen, words, {.required = preferred == nullptr, .doc = doc});
+  return chosen < 0 || s.describing() ? nullptr : &entries[chosen];
+}
+
+void read_term(const std::string& name, Section s, double weight, SumMaterial::Parts& parts) {
+  const LawEntry* entry = choose_law(s, law_entries(), nullptr, "see `titin materials` for the laws and their keys");
+  if (!entry) return;
+  const auto same = [&](const WeightedTerm& t) { return t.info.name == name; };
+  if (std::any_of(parts.terms.begin(), parts.terms.end(), same))
+    s.error("", "this material has another term called \"" + name + "\"",
+            "terms of a material and of its mix share names: choose another");
+  parts.terms.push_back({{name, entry->info.name, entry->info.stores_energy}, weight, entry->read(s)});
+}
+
+/// Density, volumetric function and terms: what a material and its mix both have.
+void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
+  double density = 0;
+  s.read("density", density, {.unit = "kg/m^3", .range = positive, .required = true, .doc = "reference density"});
+  parts.density += weight * density;
+  const bool given = s.has("volumetric");
+  Section v = s.section("volumetric", "energy of a change of volume");
+  if (const VolumetricEntry* entry =
+          given || s.describing() ? choose_law(v, volumetric_entries(), "simo", "volumetric function") : nullptr)
+    parts.volumetric.push_back({weight, entry->read(v)});
+  if (!given && !s.describing())
+    s.error("", "no volumetric law", "add volumetric = { law = \"simo\", bulk_modulus = \"10 MPa\" }");
+  s.each("terms", "what adds up to the material's energy; the names are yours",
+         [&](const std::string& name, Section term) { read_term(name, term, weight, parts); });
+}
+
+void read_fibre(Section& s, SumMaterial::Parts& parts) {
+  const auto needs = [](const WeightedTerm& t) { return t.term->needs_fibre(); };
+  const auto term = std::find_if(parts.terms.begin(), parts.terms.end(), needs);
+  const bool given = s.has("fibre");
+  s.read("fibre", parts.fibre, {.doc = "direction of the fibres in the reference configuration; any length but zero"});
+  const double length = norm(parts.fibre);
+  if (given && !(length > 0)) s.error("fibre", "a fibre of zero length has no direction", "give one such as [1, 0, 0]");
+  if (!given && term != parts.terms.end())
+    s.error("", "term \"" + term->info.name + "\" (" + term->info.law + ") needs fibres", "add fibre = [1, 0, 0], say");
+  if (length > 0)
+    for (double& x : parts.fibre) x /= length;
+  s.choose("fibre_invariants", parts.measure, {{"isochoric", FibreMeasure::isochoric}, {"full", FibreMeasure::full}},
+           {.doc = "stretch of fibres without the change of volume, or with it"});
+}
+
+double read_mix_fraction(Section mix) {
+  double share = 0;
+  mix.read("fraction", share,
+           {.range = fraction,
+            .required = true,
+            .doc = "share of the mixed-in constituent: W = (1 - fraction) W + fraction W_mix"});
+  return share;
+}
+
+}  // namespace
+
+std::shared_ptr<const Material> Material::read(Section s) {
+  SumMaterial::Parts parts;
+  const bool mixed = s.has("mix") || s.describing();
+  double share = 0;
+  if (mixed) {
+    Section mix = s.section("mix", "second constituent, by the rule of mixtures");
+    share = read_mix_fraction(mix);
+  }
+  read_constituent(s, 1 - share, parts);
+  if (mixed) read_constituent(s.section("mix"), share, parts);
+  read_fibre(s, parts);
+  if (parts.terms.empty() && !s.describing())
+    s.error("", "a material without terms has no strength", "add [" + s.path() + ".terms] with at least one law");
+  return std::make_shared<SumMaterial>(std::move(parts));
+}
+
+}  // namespace titin

@@ -1,0 +1,28 @@
+/// Mooney-Rivlin: W = c1 (I1 - 3) + c2 (I2 - 3) [J/m^3] of Cbar. Mooney (1940), J. Appl. Phys. 11, 582; Rivlin (1948).
+/// Shear modulus at rest 2 (c1 + c2). The term in I2 of Cbar alone is not polyconvex.
+#pragma once
+
+#include "materials/registry.hpp"
+
+namespace titin {
+
+struct MooneyRivlin {
+  static constexpr auto name = "mooney_rivlin";
+  static constexpr auto formula = "W = c1 (I1 - 3) + c2 (I2 - 3)";
+  static constexpr auto source = "Mooney 1940, J. Appl. Phys. 11:582; Rivlin 1948, Phil. Trans. A 241:379";
+  static constexpr std::array uses{Invariant::I1, Invariant::I2};
+
+  double c1 = 0, c2 = 0;
+
+  void bind(Section& s) {
+    s.read("c1", c1, {.unit = "Pa", .range = positive, .required = true, .doc = "factor of I1 - 3"});
+    s.read("c2", c2, {.unit = "Pa", .range = non_negative, .required = true, .doc = "factor of I2 - 3"});
+  }
+  template <class T>
+  T energy(const Invariants<T>& x) const {
+    return c1 * x.e1() + c2 * x.e2();
+  }
+};
+TITIN_LAW(MooneyRivlin)
+
+}  // namespace titin

@@ -1,0 +1,123 @@
+/// The list of laws: what `titin materials` prints and where a scene's law names become terms.
+///
+/// A law registers itself by the last line of its header, TITIN_LAW(Struct); laws.cpp includes every law's header and
+/// that is all there is to say (a self-registering object file per law would be lost in a static library).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/config.hpp"
+#include "materials/term.hpp"
+
+namespace titin {
+
+/// A parameter set that can be traced: the values as a scene would say them, what they were measured on, and where.
+struct ParameterSet {
+  std::string tissue, parameters, source;
+};
+
+struct LawInfo {
+  std::string name, kind, formula, source;  ///< kind: matrix, fibre, active or volumetric
+  std::vector<KeyRecord> parameters;
+  std::vector<ParameterSet> published;
+  bool needs_fibre = false, stores_energy = true, uses_rate = false;
+};
+
+/// U(ratio) of a volume ratio.
+class VolumetricLaw {
+ public:
+  struct Value {
+    double U, dU, d2U;
+  };
+  virtual ~VolumetricLaw() = default;
+  virtual Value evaluate(double ratio) const = 0;
+};
+
+struct LawEntry {
+  LawInfo info;
+  std::function<std::unique_ptr<Term>(Section)> read;
+};
+struct VolumetricEntry {
+  LawInfo info;
+  std::function<std::unique_ptr<VolumetricLaw>(Section)> read;
+};
+
+/// All laws and volumetric functions with their parameters, by kind and name.
+std::vector<LawInfo> laws();
+/// The same as the scene reader wants them.
+const std::vector<LawEntry>& law_entries();
+const std::vector<VolumetricEntry>& volumetric_entries();
+
+namespace detail {
+
+bool add(LawEntry entry);
+bool add(VolumetricEntry entry);
+
+template <class Law>
+std::vector<ParameterSet> published() {
+  if constexpr (requires { Law::published; })
+    return {Law::published.begin(), Law::published.end()};
+  else
+    return {};
+}
+
+template <class Law>
+LawInfo info() {
+  return {Law::name, "", Law::formula, Law::source, {}, published<Law>()};
+}
+
+template <class Law>
+std::unique_ptr<Term> make_term(Law law) {
+  if constexpr (InvariantLaw<Law>)
+    return std::make_unique<EnergyTerm<Law>>(std::move(law));
+  else
+    return std::make_unique<FibreTerm<Law>>(std::move(law));
+}
+
+template <class Law>
+bool register_law() {
+  LawInfo info = detail::info<Law>();
+  const auto term = make_term(Law{});
+  info.needs_fibre = term->needs_fibre();
+  info.stores_energy = term->stores_energy();
+  info.uses_rate = term->uses().has(Invariant::rate);
+  info.kind = !info.stores_energy ? "active" : info.needs_fibre ? "fibre" : "matrix";
+  return add(LawEntry{std::move(info), [](Section s) {
+                        Law law;
+                        law.bind(s);
+                        return make_term(std::move(law));
+                      }});
+}
+
+template <class Law>
+class VolumetricAdaptor final : public VolumetricLaw {
+ public:
+  explicit VolumetricAdaptor(Law law) : law_(law) {}
+  Value evaluate(double ratio) const override {
+    const Dual<1> U = law_.energy(Dual<1>::variable(ratio, 0));
+    return {U.value, U.gradient[0], U.hessian[0]};
+  }
+
+ private:
+  Law law_;
+};
+
+template <class Law>
+bool register_volumetric() {
+  LawInfo info = detail::info<Law>();
+  info.kind = "volumetric";
+  return add(VolumetricEntry{std::move(info), [](Section s) {
+                               Law law;
+                               law.bind(s);
+                               return std::make_unique<VolumetricAdaptor<Law>>(law);
+                             }});
+}
+
+}  // namespace detail
+}  // namespace titin
+
+#define TITIN_LAW(Law) inline const bool registered_##Law = ::titin::detail::register_law<Law>();
+#define TITIN_VOLUMETRIC(Law) inline const bool registered_##Law = ::titin::detail::register_volumetric<Law>();

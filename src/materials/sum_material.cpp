@@ -1,0 +1,176 @@
+#include "materials/sum_material.hpp"
+
+#include <algorithm>
+
+namespace titin {
+namespace {
+
+constexpr int groups = block_size / lane_count;
+
+InvariantSet used_by(std::span<const WeightedTerm> terms) {
+  InvariantSet set;
+  for (const WeightedTerm& t : terms) set.insert(t.term->uses());
+  return set;
+}
+
+template <std::size_t size>
+std::array<Lanes, size> gather_all(const std::array<double, size>* points, int first, int n) {
+  std::array<Lanes, size> x;
+  for (std::size_t c = 0; c < size; ++c) x[c] = gather(points, c, first, n);
+  return x;
+}
+
+template <std::size_t size>
+void scatter_all(const std::array<Lanes, size>& x, std::array<double, size>* points, int first, int n) {
+  for (int lane = 0; lane < lane_count && first + lane < n; ++lane)
+    for (std::size_t c = 0; c < size; ++c) points[first + lane][c] = x[c][lane];
+}
+
+Lanes load(const BlockValues& values, int group) {
+  return Lanes(&values[group * lane_count], std::experimental::element_aligned);
+}
+
+/// Up to block_size points of an input, from their deformation to their stress.
+class Block {
+ public:
+  Block(const PointInput& in, int first, InvariantSet used, FibreMeasure measure) : first_(first), end_(in.n) {
+    const FibreRate rate = in.F_old && in.dt > 0 ? in.rate : FibreRate::none;
+    if (rate == FibreRate::none) used.erase(Invariant::rate);
+    used_ = used;
+    options_ = {measure, rate, in.dt};
+    points.n = std::min(block_size, in.n - first);
+    points.time = in.time;
+    points.excess[index(Invariant::rate)].fill(0);
+    for (int g = 0; g < active_groups(); ++g) set_group(in, g);
+  }
+
+  /// Sums the terms' derivatives.
+  void differentiate(std::span<const WeightedTerm> terms, bool want_second) {
+    W_.want_second = want_second;
+    for (int a = 0; a < invariant_count; ++a) {
+      W_.first[a].fill(0);
+      if (want_second)
+        for (int b = 0; b < invariant_count; ++b) W_.second[a][b].fill(0);
+    }
+    for (const WeightedTerm& t : terms) t.term->add_derivatives(points, t.weight, W_);
+  }
+
+  void write(Mat3* P, Mat9* A) const {
+    for (int g = 0; g < active_groups(); ++g) {
+      EnergyDerivatives<Lanes> W = derivatives(g);
+      std::array<Lanes, 81> tangent;
+      const int first = first_ + g * lane_count;
+      if (!A) {
+        scatter_all(assemble_stress(kinematics_[g], used_, W), P, first, end_);
+        continue;
+      }
+      scatter_all(assemble_tangent(kinematics_[g], used_, W, tangent), P, first, end_);
+      scatter_all(tangent, A, first, end_);
+    }
+  }
+
+  PointBlock points;
+
+ private:
+  int active_groups() const { return (points.n + lane_count - 1) / lane_count; }
+
+  void set_group(const PointInput& in, int g) {
+    const int p = first_ + g * lane_count;
+    Tensor3<Lanes> F_old{};
+    Vector3<Lanes> a0{};
+    if (used_.has(Invariant::rate)) F_old = gather_all(in.F_old, p, end_);
+    if (used_.has(Invariant::I4)) a0 = gather_all(in.fibre, p, end_);
+    kinematics_[g] = kinematics(gather_all(in.F, p, end_), F_old, a0, used_, options_);
+    const auto v = values(kinematics_[g], used_);
+    for (int a = 0; a < invariant_count; ++a)
+      if (used_.has(Invariant(a))) v[a].copy_to(&points.excess[a][g * lane_count], std::experimental::element_aligned);
+  }
+
+  EnergyDerivatives<Lanes> derivatives(int g) const {
+    EnergyDerivatives<Lanes> W;
+    for (int a = 0; a < invariant_count; ++a) {
+      if (!used_.has(Invariant(a))) continue;
+      W.first[a] = load(W_.first[a], g);
+      if (!W_.want_second) continue;
+      for (int b = 0; b < invariant_count; ++b)
+        if (used_.has(Invariant(b))) W.second[a][b] = load(W_.second[a][b], g);
+    }
+    if (W_.want_second && used_.has(Invariant::rate)) chain_rate(kinematics_[g], W);
+    return W;
+  }
+
+  int first_, end_;
+  InvariantSet used_;
+  FibreOptions options_;
+  std::array<Kinematics<Lanes>, groups> kinematics_;
+  DerivativeBlock W_;
+};
+
+}  // namespace
+
+SumMaterial::SumMaterial(Parts parts) : parts_(std::move(parts)), used_(used_by(parts_.terms)) {
+  for (const WeightedTerm& t : parts_.terms) infos_.push_back(t.info);
+}
+
+bool SumMaterial::symmetric_tangent(FibreRate rate) const {
+  return rate != FibreRate::velocity_gradient || !used_.has(Invariant::rate);
+}
+
+void SumMaterial::evaluate(const PointInput& in, std::span<const WeightedTerm> terms, Mat3* P, Mat9* A) const {
+  const InvariantSet used = used_by(terms);
+  for (int first = 0; first < in.n; first += block_size) {
+    Block block(in, first, used, parts_.measure);
+    block.differentiate(terms, A != nullptr);
+    block.write(P, A);
+  }
+}
+
+void SumMaterial::stress(const PointInput& in, Mat3* P, Mat9* A) const { evaluate(in, parts_.terms, P, A); }
+
+void SumMaterial::term_stress(int term, const PointInput& in, Mat3* P) const {
+  evaluate(in, {&parts_.terms[term], 1}, P, nullptr);
+}
+
+void SumMaterial::term_energy(int term, const PointInput& in, double* W) const {
+  const WeightedTerm& t = parts_.terms[term];
+  std::fill_n(W, in.n, 0.0);
+  if (!t.term->stores_energy()) return;
+  for (int first = 0; first < in.n; first += block_size) {
+    const Block block(in, first, t.term->uses(), parts_.measure);
+    t.term->add_energy(block.points, t.weight, W + first);
+  }
+}
+
+void SumMaterial::fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const {
+  double active = 0;
+  for (const WeightedTerm& t : parts_.terms) active = std::max(active, t.term->activation(in.time));
+  std::fill_n(activation, in.n, active);
+  if (!has_fibres()) {
+    std::fill_n(stretch, in.n, 0.0);
+    std::fill_n(rate, in.n, 0.0);
+    return;
+  }
+  InvariantSet used;
+  used.insert(Invariant::I4);
+  used.insert(Invariant::rate);
+  for (int first = 0; first < in.n; first += block_size) {
+    const Block block(in, first, used, FibreMeasure::full);
+    for (int p = 0; p < block.points.n; ++p) {
+      stretch[first + p] = std::sqrt(1 + block.points.excess[index(Invariant::I4)][p]);
+      rate[first + p] = block.points.excess[index(Invariant::rate)][p];
+    }
+  }
+}
+
+Material::Volumetric SumMaterial::volumetric(double ratio) const {
+  Volumetric sum{};
+  for (const WeightedVolumetric& v : parts_.volumetric) {
+    const VolumetricLaw::Value value = v.law->evaluate(ratio);
+    sum.U += v.weight * value.U;
+    sum.dU += v.weight * value.dU;
+    sum.d2U += v.weight * value.d2U;
+  }
+  return sum;
+}
+
+}  // namespace titin

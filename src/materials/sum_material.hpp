@@ -1,0 +1,56 @@
+/// The material that scenes describe: a weighted sum of terms, of volumetric functions and of densities.
+///
+/// A rule of mixtures is nothing but weights: W = (1 - fraction) W_own + fraction W_mix.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "materials/material.hpp"
+#include "materials/registry.hpp"
+
+namespace titin {
+
+struct WeightedTerm {
+  TermInfo info;
+  double weight = 1;
+  std::shared_ptr<const Term> term;
+};
+struct WeightedVolumetric {
+  double weight = 1;
+  std::shared_ptr<const VolumetricLaw> law;
+};
+
+class SumMaterial final : public Material {
+ public:
+  struct Parts {
+    double density = 0;
+    Vec3 fibre{};
+    FibreMeasure measure = FibreMeasure::isochoric;
+    std::vector<WeightedTerm> terms;
+    std::vector<WeightedVolumetric> volumetric;
+  };
+  explicit SumMaterial(Parts parts);
+
+  double density() const override { return parts_.density; }
+  Vec3 fibre() const override { return parts_.fibre; }
+  bool has_fibres() const override { return used_.has(Invariant::I4); }
+  bool symmetric_tangent(FibreRate rate) const override;
+  const std::vector<TermInfo>& terms() const override { return infos_; }
+
+  void stress(const PointInput& in, Mat3* P, Mat9* A) const override;
+  void term_stress(int term, const PointInput& in, Mat3* P) const override;
+  void term_energy(int term, const PointInput& in, double* W) const override;
+  void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const override;
+  Volumetric volumetric(double ratio) const override;
+
+ private:
+  void evaluate(const PointInput& in, std::span<const WeightedTerm> terms, Mat3* P, Mat9* A) const;
+
+  Parts parts_;
+  std::vector<TermInfo> infos_;
+  InvariantSet used_;
+};
+
+}  // namespace titin

@@ -1,0 +1,169 @@
+/// A term of a material's energy, seen from the material: a block of invariants in, a block of derivatives out.
+///
+/// Laws (one struct, one file) know nothing of this: an adaptor makes any law a term. A law is one of
+///   * an energy in invariants: `static constexpr std::array uses{Invariant::I1, ...}` and
+///     `template <class T> T energy(const Invariants<T>& x) const` [J/m^3], x holding the invariants' excess over rest;
+///   * a fibre: `static constexpr bool uses_rate` and
+///     `template <class T> T fibre_stress(const T& stretch, const T& rate, double time) const`, the Kirchhoff stress
+///     along the fibre [Pa]; and `double energy(double stretch) const` [J/m^3] if it stores energy.
+#pragma once
+
+#include <array>
+#include <concepts>
+
+#include "materials/invariants.hpp"
+#include "math/dual.hpp"
+
+namespace titin {
+
+inline constexpr int block_size = 16;
+static_assert(block_size % lane_count == 0);
+using BlockValues = std::array<double, block_size>;
+
+/// The invariants of n <= block_size points.
+struct PointBlock {
+  int n = 0;
+  double time = 0;  ///< t_n+1 [s]
+  alignas(64) PerInvariant<BlockValues> excess;
+};
+
+/// Sums of W_a and W_ab over terms.
+struct DerivativeBlock {
+  bool want_second = false;
+  alignas(64) PerInvariant<BlockValues> first;
+  alignas(64) PerPair<BlockValues> second;
+};
+
+class Term {
+ public:
+  virtual ~Term() = default;
+  virtual InvariantSet uses() const = 0;
+  virtual bool stores_energy() const = 0;
+  virtual bool needs_fibre() const = 0;
+  /// Adds weight times the derivatives of the energy.
+  virtual void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const = 0;
+  /// Adds weight times the energy [J/m^3]; nothing for a term that stores none.
+  virtual void add_energy(const PointBlock& points, double weight, double* sum) const = 0;
+  virtual double activation(double /*time*/) const { return 0; }
+};
+
+/// What an energy is a function of: I1 - 3, I2 - 3, J - 1, I4 - 1.
+template <class T>
+struct Invariants {
+  PerInvariant<T> excess{};
+  const T& e1() const { return excess[index(Invariant::I1)]; }
+  const T& e2() const { return excess[index(Invariant::I2)]; }
+  const T& eJ() const { return excess[index(Invariant::J)]; }
+  const T& e4() const { return excess[index(Invariant::I4)]; }
+};
+
+template <class Law>
+concept InvariantLaw = requires(const Law& law, const Invariants<double>& x) {
+  { law.energy(x) } -> std::convertible_to<double>;
+  Law::uses;
+};
+template <class Law>
+concept FibreLaw = requires(const Law& law, double x) {
+  { law.fibre_stress(x, x, x) } -> std::convertible_to<double>;
+  { Law::uses_rate } -> std::convertible_to<bool>;
+};
+template <class Law>
+concept StoringFibreLaw = FibreLaw<Law> && requires(const Law& law, double x) {
+  law.energy(x);
+};
+
+template <InvariantLaw Law>
+class EnergyTerm final : public Term {
+ public:
+  explicit EnergyTerm(Law law) : law_(std::move(law)) {}
+  bool stores_energy() const override { return true; }
+  bool needs_fibre() const override { return uses().has(Invariant::I4); }
+  InvariantSet uses() const override {
+    InvariantSet set;
+    for (Invariant a : Law::uses) set.insert(a);
+    return set;
+  }
+  void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const override {
+    if (sum.want_second)
+      add<2>(points, weight, sum);
+    else
+      add<1>(points, weight, sum);
+  }
+  void add_energy(const PointBlock& points, double weight, double* sum) const override {
+    for (int p = 0; p < points.n; ++p) {
+      Invariants<double> x;
+      for (Invariant a : Law::uses) x.excess[index(a)] = points.excess[index(a)][p];
+      sum[p] += weight * law_.energy(x);
+    }
+  }
+
+ private:
+  static constexpr int M = static_cast<int>(Law::uses.size());
+
+  template <int order>
+  void add(const PointBlock& points, double weight, DerivativeBlock& sum) const {
+    using Number = Dual<M, order>;
+    for (int p = 0; p < points.n; ++p) {
+      Invariants<Number> x;
+      for (int a = 0; a < M; ++a) {
+        const int i = index(Law::uses[a]);
+        x.excess[i] = Number::variable(points.excess[i][p], a);
+      }
+      const Number W = law_.energy(x);
+      for (int a = 0; a < M; ++a) {
+        sum.first[index(Law::uses[a])][p] += weight * W.gradient[a];
+        if constexpr (order == 2)
+          for (int b = 0; b < M; ++b)
+            sum.second[index(Law::uses[a])][index(Law::uses[b])][p] += weight * W.hessian[Number::pair(a, b)];
+      }
+    }
+  }
+
+  Law law_;
+};
+
+/// W_4 = sigma / (2 I4), whose derivatives are W_44 = (lambda sigma' - 2 sigma) / (4 I4^2) and W_4r = sigma_r / (2 I4).
+template <FibreLaw Law>
+class FibreTerm final : public Term {
+ public:
+  explicit FibreTerm(Law law) : law_(std::move(law)) {}
+  bool stores_energy() const override { return StoringFibreLaw<Law>; }
+  bool needs_fibre() const override { return true; }
+  InvariantSet uses() const override {
+    InvariantSet set;
+    set.insert(Invariant::I4);
+    if (Law::uses_rate) set.insert(Invariant::rate);
+    return set;
+  }
+  void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const override {
+    constexpr int M = Law::uses_rate ? 2 : 1;
+    using Number = Dual<M, 1>;
+    constexpr int i4 = index(Invariant::I4), ir = index(Invariant::rate);
+    for (int p = 0; p < points.n; ++p) {
+      const double I4 = 1 + points.excess[i4][p], stretch = std::sqrt(I4), half = 0.5 * weight / I4;
+      Number rate = 0;
+      if constexpr (Law::uses_rate) rate = Number::variable(points.excess[ir][p], 1);
+      const Number stress = law_.fibre_stress(Number::variable(stretch, 0), rate, points.time);
+      sum.first[i4][p] += half * stress.value;
+      if (!sum.want_second) continue;
+      sum.second[i4][i4][p] += half * (0.5 * stretch * stress.gradient[0] - stress.value) / I4;
+      if constexpr (Law::uses_rate) sum.second[i4][ir][p] += half * stress.gradient[1];
+    }
+  }
+  void add_energy(const PointBlock& points, double weight, double* sum) const override {
+    if constexpr (StoringFibreLaw<Law>)
+      for (int p = 0; p < points.n; ++p)
+        sum[p] += weight * law_.energy(std::sqrt(1 + points.excess[index(Invariant::I4)][p]));
+  }
+  double activation(double time) const override {
+    if constexpr (requires { law_.activation(time); })
+      return law_.activation(time);
+    else
+      return 0;
+  }
+
+ private:
+  Law law_;
+};
+
+}  // namespace titin

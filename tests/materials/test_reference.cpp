@@ -1,0 +1,104 @@
+/// Stress, energy and tangent against independent numbers (tests/data/materials/*.json say where they come from).
+#include <fmt/format.h>
+
+#include <map>
+
+#include "materials_for_tests.hpp"
+
+namespace titin::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+// Sixteen digits lose four to six in differences of nearly equal numbers near the identity.
+constexpr double stress_tolerance = 1e-10, energy_tolerance = 1e-10, tangent_tolerance = 1e-8;
+
+std::string quantity(double x, const Json& entry) {
+  static const std::map<std::string, double> scale{{"Pa", 1}, {"kPa", 1e3}, {"MPa", 1e6}};
+  return fmt::format("\"{:.17g} Pa\"", x * scale.at(entry["units"]));
+}
+
+std::string yeoh(double scale, const Json& p) {
+  return fmt::format("base = {{ law = \"yeoh\", c1 = \"{:.17g} Pa\", c2 = \"{:.17g} Pa\", c3 = \"{:.17g} Pa\" }}\n",
+                     scale * p["c1"].get<double>(), scale * p["c2"].get<double>(), scale * p["c3"].get<double>());
+}
+
+std::string muscle(const Json& p) {
+  const double act = p["act"], rate = p.value("e0", 5.0);
+  return yeoh(p["sigma0b"], p) + fmt::format(
+                                     "passive = {{ law = \"hill_passive\", peak_stress = \"{0} Pa\" }}\n"
+                                     "active = {{ law = \"hill_active\", peak_stress = \"{0} Pa\", max_strain_rate = "
+                                     "\"{1} 1/s\", activation = {2} }}\n",
+                                     p["sigma0"].get<double>(), rate, act);
+}
+
+/// The terms of an entry in the language of scenes, by the name of its model.
+std::string terms(const Json& entry) {
+  const std::string model = entry["model"];
+  const Json& p = entry["params"];
+  const auto in = [&](const char* key) { return quantity(p[key], entry); };
+  if (model.starts_with("yeoh")) return yeoh(p["s"], p);
+  if (model.starts_with("neo_hookean_iso")) return fmt::format("m = {{ law = \"neo_hookean\", mu = {} }}\n", in("mu"));
+  if (model == "mooney_rivlin_iso")
+    return fmt::format("m = {{ law = \"mooney_rivlin\", c1 = {}, c2 = {} }}\n", in("C1"), in("C2"));
+  if (model.starts_with("flexodeal_muscle")) return muscle(p);
+  if (model == "flexodeal_tendon")
+    return yeoh(p["sigma0b"], p) +
+           fmt::format("fibre = {{ law = \"collagen_table\", stress_scale = {} }}\n", in("sigma0"));
+  return "";
+}
+
+MaterialPointer material_of(const Json& entry) {
+  const Json& p = entry["params"];
+  std::string text = "density = \"1000 kg/m^3\"\n";
+  if (p.contains("K"))
+    text += fmt::format("volumetric = {{ law = \"{}\", bulk_modulus = {} }}\n", p.value("vol", "simo"),
+                        quantity(p["K"], entry));
+  if (p.contains("a0")) text += "fibre = " + p["a0"].dump() + "\n";
+  return material(text + "[materials.m.terms]\n" + terms(entry));
+}
+
+Point point_of(const Json& entry, const Material& m) {
+  Point point{.F = mat3(entry["F"]), .fibre = m.fibre()};
+  if (!entry["params"].contains("Fn")) return point;
+  point.F_old = mat3(entry["params"]["Fn"]);
+  point.dt = entry["params"]["dt"];
+  point.rate = FibreRate::velocity_gradient;
+  return point;
+}
+
+void expect_entry(const Json& entry) {
+  const double unit = entry["units"] == "Pa" ? 1 : entry["units"] == "kPa" ? 1e3 : 1e6;
+  const MaterialPointer m = material_of(entry);
+  const Point point = point_of(entry, *m);
+  Mat3 P, expected_P = mat3(entry["P"]);
+  Mat9 A, expected_A;
+  whole_stress(*m, point.input(), &P, &A);
+  for (double& x : P) x /= unit;
+  for (double& x : A) x /= unit;
+  for (int r = 0; r < 9; ++r)
+    for (int c = 0; c < 9; ++c) expected_A[9 * r + c] = entry["dPdF"][r][c];
+  // Stress is relative to its own size, but not below what rounding F in its last digit changes: eps |A|.
+  const double round_off = 4 * std::numeric_limits<double>::epsilon() * size_of(expected_A);
+  EXPECT_LT(distance(P, expected_P), stress_tolerance * size_of(expected_P) + round_off);
+  if (!entry.value("tangent_at_kink", false)) {
+    EXPECT_LT(distance(A, expected_A), tangent_tolerance * size_of(expected_A));
+  }
+  if (entry["energy"].is_null()) return;
+  double W = 0;
+  whole_energy(*m, point.input(), &W);
+  EXPECT_NEAR(W / unit, entry["energy"], energy_tolerance * std::abs(entry["energy"].get<double>()) + round_off * 1e-6);
+}
+
+TEST(Reference, EveryEntryIsMet) {
+  for (const char* file : {"first_light.json"}) {
+    const Json data = read_json(file);
+    for (const Json& entry : data["entries"]) {
+      SCOPED_TRACE(entry["model"].get<std::string>() + " at " + entry["F_name"].get<std::string>());
+      expect_entry(entry);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace titin::testing
