@@ -1,0 +1,25 @@
+/// The folder of a run: resolved.toml, run.log, run.json, history.csv, fields/ (ParaView), checkpoints/.
+/// What a user put there is never removed.
+#pragma once
+
+#include <string>
+
+namespace titin {
+
+class RunFolder {
+ public:
+  /// Why a run may not write to `path`, and what to do; "" when it may. Touches nothing. Collective.
+  static std::string problem(const std::string& path, bool overwrite);
+  /// Makes the folder, or empties it of an earlier run's files. Collective. Throws InputError when `problem` is one.
+  RunFolder(const std::string& path, bool overwrite);
+
+  const std::string& path() const { return path_; }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  /// Writes a text file as a whole: a reader sees the old or the new one, never half of it. Rank 0 writes.
+  void write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::string path_;
+};
+
+}  // namespace titin

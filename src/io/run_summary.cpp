@@ -1,0 +1,54 @@
+#include "io/run_summary.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "base/version.hpp"
+
+namespace titin {
+
+std::string RunSummary::json() const {
+  using Json = nlohmann::ordered_json;
+  const auto& counts = newton.per_step;
+  const long accepted = std::accumulate(counts.begin(), counts.end(), 0L);
+  Json timer_table = Json::object();
+  for (const auto& [name, t] : timers) timer_table[name] = {{"cpu", t.cpu}, {"wall", t.wall}, {"calls", t.calls}};
+  const Json newton_table = {
+      {"total", accepted + newton.failed},
+      {"max_per_step", counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end())},
+      {"mean_per_step", counts.empty() ? 0.0 : static_cast<double>(accepted) / static_cast<double>(counts.size())},
+      {"per_step", counts},
+      {"failed", newton.failed},
+      {"cuts", newton.cuts},
+      {"last_residuals", newton.last_residuals},
+  };
+  const Json all = {
+      {"status", status},
+      {"reason", reason},
+      {"title", title},
+      {"scene", scene},
+      {"version", version()},
+      {"commit", commit()},
+      {"libraries", libraries},
+      {"ranks", ranks},
+      {"cells", cells},
+      {"unknowns", unknowns},
+      {"steps", steps},
+      {"time", time},
+      {"newton", newton_table},
+      {"krylov", {{"total", krylov}}},
+      {"cpu_seconds", cpu_seconds},
+      {"wall_seconds", wall_seconds},
+      {"stepping_seconds", stepping_seconds},
+      {"peak_rss_bytes", peak_rss_bytes},
+      {"timers", timer_table},
+      {"warnings", warnings},
+      {"errors", errors},
+      {"conservation", conservation},
+  };
+  // A file name need not be UTF-8; JSON must be.
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace titin

@@ -1,0 +1,44 @@
+/// run.json: what a run was, how it ended and what it cost.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace titin {
+
+struct RunSummary {
+  std::string status = "running";  ///< running, finished, not_converged, stopped or failed
+  std::string reason;              ///< why it is not finished, in words
+  std::string title, scene;
+  std::map<std::string, std::string> libraries;  ///< name -> version
+  int ranks = 1;
+  long cells = 0, unknowns = 0;
+
+  int steps = 0;
+  double time = 0;  ///< [s] reached
+  struct {
+    std::vector<int> per_step;           ///< of accepted steps
+    int failed = 0;                      ///< iterations in steps that failed
+    int cuts = 0;                        ///< how often a step was halved
+    std::vector<double> last_residuals;  ///< of the last accepted step: shows the order of convergence
+  } newton;
+  long krylov = 0;
+
+  double cpu_seconds = 0;       ///< of all ranks
+  double wall_seconds = 0;      ///< since the program started
+  double stepping_seconds = 0;  ///< wall time of the run loop, output included
+  double peak_rss_bytes = 0;    ///< of all ranks
+  struct Timer {
+    double cpu = 0, wall = 0;  ///< [s] of all ranks; of the slowest rank
+    long calls = 0;
+  };
+  std::map<std::string, Timer> timers;
+  int warnings = 0;
+  std::map<std::string, double> errors;        ///< norms by name, where a reference is known
+  std::map<std::string, double> conservation;  ///< what should stay zero
+
+  std::string json() const;
+};
+
+}  // namespace titin
