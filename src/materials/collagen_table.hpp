@@ -16,6 +16,7 @@ struct CollagenTable {
   static constexpr auto formula = "sigma = stress_scale t(stretch), W_4 = sigma / (2 I4)";
   static constexpr auto source = "Flexodeal 1.1.1 (tendon and aponeurosis share the table)";
   static constexpr bool uses_rate = false;
+  static constexpr auto pulls_at_rest = "the published table is 0.01 at stretch 1 (see stress_free_rest)";
   inline static const std::array published{
       ParameterSet{"tendon, aponeurosis", R"(stress_scale = "200 kPa")", "Flexodeal 1.1.1, parameters.prm"}};
   static constexpr double rest = 0.01;

@@ -14,6 +14,7 @@ struct HillActive {
   static constexpr auto source =
       "Hill 1938, Proc. R. Soc. B 126:136; curves of Flexodeal 1.1.1 or De Groote et al. 2016";
   static constexpr bool uses_rate = true;
+  static constexpr auto pulls_at_rest = "an active fibre pulls at any length";
   inline static const std::array published{
       ParameterSet{"skeletal muscle", R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 1)",
                    "Flexodeal Lite 1.5.4, parameters.prm"}};

@@ -176,7 +176,7 @@ Kinematics<T> kinematics(const Tensor3<T>& F, const Tensor3<T>& F_old, const Vec
     k.a0 = a0;
     k.f = multiply(F, a0);
     k.m = dot(k.f, k.f);
-    k.aEa = dot(a0, multiply(k.E, a0));
+    k.aEa = dot(a0, multiply(k.E, a0)) + 0.0 * k.y;  // not a number for unsplit invariants either where J <= 0
   }
   if (used.has(Invariant::rate)) {
     if (options.rate == FibreRate::stretch_difference) set_stretch_difference(k, F_old);

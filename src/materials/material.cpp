@@ -47,14 +47,20 @@ void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
     parts.volumetric.push_back({weight, entry->read(v)});
   if (!given && !s.describing())
     s.error("", "no volumetric law", "add volumetric = { law = \"simo\", bulk_modulus = \"10 MPa\" }");
+  int terms = 0;
   s.each("terms", "what adds up to the material's energy; the names are yours",
-         [&](const std::string& name, Section term) { read_term(name, term, weight, parts); });
+         [&](const std::string& name, Section term) {
+           ++terms;
+           read_term(name, term, weight, parts);
+         });
+  if (terms == 0) s.error("", "no terms, no strength", "add [" + s.path() + ".terms] with at least one law");
 }
 
 void read_fibre(Section& s, SumMaterial::Parts& parts) {
   const auto needs = [](const WeightedTerm& t) { return t.term->needs_fibre(); };
   const auto term = std::find_if(parts.terms.begin(), parts.terms.end(), needs);
   const bool given = s.has("fibre");
+  if (given) parts.fibre = {1, 0, 0};  // stays if what is given cannot be read, which is reported there
   s.read("fibre", parts.fibre, {.doc = "direction of the fibres in the reference configuration; any length but zero"});
   const double length = norm(parts.fibre);
   if (given && !(length > 0)) s.error("fibre", "a fibre of zero length has no direction", "give one such as [1, 0, 0]");
@@ -88,8 +94,6 @@ std::shared_ptr<const Material> Material::read(Section s) {
   read_constituent(s, 1 - share, parts);
   if (mixed) read_constituent(s.section("mix"), share, parts);
   read_fibre(s, parts);
-  if (parts.terms.empty() && !s.describing())
-    s.error("", "a material without terms has no strength", "add [" + s.path() + ".terms] with at least one law");
   return std::make_shared<SumMaterial>(std::move(parts));
 }
 

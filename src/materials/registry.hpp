@@ -24,6 +24,7 @@ struct LawInfo {
   std::vector<KeyRecord> parameters;
   std::vector<ParameterSet> published;
   bool needs_fibre = false, stores_energy = true, uses_rate = false;
+  std::string pulls_at_rest;  ///< why there is stress without deformation; "" when there is none
 };
 
 /// U(ratio) of a volume ratio.
@@ -66,7 +67,11 @@ std::vector<ParameterSet> published() {
 
 template <class Law>
 LawInfo info() {
-  return {Law::name, "", Law::formula, Law::source, {}, published<Law>()};
+  LawInfo info;
+  info.name = Law::name, info.formula = Law::formula, info.source = Law::source;
+  info.published = published<Law>();
+  if constexpr (requires { Law::pulls_at_rest; }) info.pulls_at_rest = Law::pulls_at_rest;
+  return info;
 }
 
 template <class Law>

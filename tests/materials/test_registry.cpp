@@ -1,0 +1,250 @@
+/// What every law must keep, whichever it is: the tests walk the registry, so that no law escapes them.
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+
+#include "materials_for_tests.hpp"
+
+namespace titin::testing {
+namespace {
+
+// Measured orders of central differences (2 in theory) may lie a little low: the next term of the series.
+constexpr double order_of_central_differences = 1.9;
+// Tens of roundings in sums of nine products.
+constexpr double round_off = 1e-12;
+
+/// Parameters for laws of which no traceable set is published, and more choices of those with options.
+const std::map<std::string, std::vector<std::string>>& more_parameters() {
+  static const std::map<std::string, std::vector<std::string>> sets{
+      {"mooney_rivlin", {R"(c1 = "6 kPa", c2 = "2 kPa")"}},
+      {"hill_active",
+       {R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "flexodeal_smooth")",
+        R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "degroote")"}},
+      {"hill_passive", {R"(peak_stress = "200 kPa", curve = "degroote")"}},
+      {"collagen_table", {R"(stress_scale = "200 kPa", stress_free_rest = true)"}},
+  };
+  return sets;
+}
+
+struct Case {
+  LawInfo law;
+  std::string parameters, more;
+  bool published;
+  MaterialPointer material() const { return material_of(law.name, parameters, more); }
+};
+
+/// Every law with every parameter set, with isochoric and with full fibre invariants.
+void for_each_case(const std::function<void(const Case&)>& check) {
+  for (const LawEntry& entry : law_entries()) {
+    std::vector<std::pair<std::string, bool>> sets;
+    for (const ParameterSet& p : entry.info.published) sets.emplace_back(p.parameters, true);
+    const auto more = more_parameters().find(entry.info.name);
+    if (more != more_parameters().end())
+      for (const std::string& p : more->second) sets.emplace_back(p, false);
+    EXPECT_FALSE(sets.empty()) << entry.info.name << " has no parameters to test it with";
+    for (const auto& [parameters, published] : sets)
+      for (const char* measure : {"isochoric", "full"}) {
+        if (!entry.info.needs_fibre && std::string(measure) == "full") continue;
+        SCOPED_TRACE(entry.info.name + " { " + parameters + " } " + measure);
+        check({entry.info, parameters, fmt::format("fibre_invariants = \"{}\"\n", measure), published});
+      }
+  }
+}
+
+Mat3 stretched_along(const Mat3& F, const Vec3& a, double stretch) {
+  Mat3 U = dyad(a, a);
+  for (double& x : U) x *= stretch - 1;
+  for (int i = 0; i < 9; i += 4) U[i] += 1;
+  return multiply(F, U);
+}
+
+/// A point well inside of one piece of every curve: the fibre at stretch 1.1, shortening at 3 to 12 % of the largest
+/// rate and turning.
+Point general_point(FibreRate rate) {
+  Point p{.F = general_F, .rate = rate, .dt = 0.5};
+  p.F_old = multiply(rotation(0.2), stretched_along(general_F, p.fibre, 1.25));
+  return p;
+}
+
+constexpr FibreRate rates[] = {FibreRate::none, FibreRate::stretch_difference, FibreRate::velocity_gradient};
+
+/// Smallest order with which an error falls when its step is halved, from three steps.
+double order(const std::function<double(double h)>& error, double h = 8e-3) {
+  const double e[] = {error(h), error(h / 2), error(h / 4)};
+  return std::min(std::log2(e[0] / e[1]), std::log2(e[1] / e[2]));
+}
+
+TEST(EveryLaw, StressIsTheDerivativeOfItsEnergyAtTheOrderOfCentralDifferences) {
+  for_each_case([](const Case& c) {
+    if (!c.law.stores_energy) return;
+    const MaterialPointer m = c.material();
+    const Point at = general_point(FibreRate::none);
+    const Mat3 P = stress(*m, at);
+    const auto error = [&](double h) {
+      Mat3 difference;
+      for (int q = 0; q < 9; ++q) {
+        Point above = at, below = at;
+        above.F[q] += h, below.F[q] -= h;
+        difference[q] = (energy(*m, above) - energy(*m, below)) / (2 * h);
+      }
+      return distance(difference, P);
+    };
+    EXPECT_GT(order(error), order_of_central_differences);
+  });
+}
+
+TEST(EveryLaw, TangentIsTheDerivativeOfItsStressAtTheOrderOfCentralDifferences) {
+  for (FibreRate rate : rates)
+    for_each_case([&](const Case& c) {
+      SCOPED_TRACE(fmt::format("rate {}", static_cast<int>(rate)));
+      const MaterialPointer m = c.material();
+      const Point at = general_point(rate);
+      const Mat9 A = tangent(*m, at);
+      const auto error = [&](double h) {
+        Mat9 difference;
+        for (int q = 0; q < 9; ++q) {
+          Point above = at, below = at;
+          above.F[q] += h, below.F[q] -= h;
+          const Mat3 P = stress(*m, above), P_below = stress(*m, below);
+          for (int p = 0; p < 9; ++p) difference[9 * p + q] = (P[p] - P_below[p]) / (2 * h);
+        }
+        return distance(difference, A);
+      };
+      EXPECT_GT(order(error), order_of_central_differences);
+    });
+}
+
+TEST(EveryLaw, StressIsTheSameWithAndWithoutTheTangent) {
+  for_each_case([](const Case& c) {
+    const Point at = general_point(FibreRate::stretch_difference);
+    Mat3 P;
+    Mat9 A;
+    const MaterialPointer m = c.material();
+    m->stress(at.input(), &P, &A);
+    EXPECT_LE(distance(P, stress(*m, at)), round_off * size_of(P));
+  });
+}
+
+TEST(EveryLaw, IsObjective) {
+  const Mat3 Q = rotation(0.7);
+  for (FibreRate rate : rates)
+    for_each_case([&](const Case& c) {
+      const MaterialPointer m = c.material();
+      const Point at = general_point(rate);
+      Point turned = at;
+      turned.F = multiply(Q, at.F), turned.F_old = multiply(Q, at.F_old);
+      const Mat3 P = stress(*m, at);
+      EXPECT_LT(distance(stress(*m, turned), multiply(Q, P)), round_off * size_of(P));
+    });
+}
+
+TEST(EveryLaw, WithoutFibresIsIsotropic) {
+  const Mat3 Q = rotation(-1.1);
+  for_each_case([&](const Case& c) {
+    if (c.law.needs_fibre) return;
+    const MaterialPointer m = c.material();
+    Point at = general_point(FibreRate::none);
+    const Mat3 P = stress(*m, at);
+    at.F = multiply(at.F, Q);
+    EXPECT_LT(distance(stress(*m, at), multiply(P, Q)), round_off * size_of(P));
+  });
+}
+
+TEST(EveryLaw, IsFreeOfStressInARigidRotationUnlessItDeclaresOtherwise) {
+  for_each_case([](const Case& c) {
+    if (!c.published) return;  // options may pull at rest: the De Groote passive curve does
+    const MaterialPointer m = c.material();
+    for (FibreRate rate : rates) {
+      Point at{.F = rotation(0.9), .rate = rate};
+      at.F_old = at.F;
+      const double P = size_of(stress(*m, at)), stiffness = size_of(tangent(*m, at));
+      if (c.law.pulls_at_rest.empty())
+        EXPECT_LE(P, round_off * stiffness);
+      else
+        EXPECT_GT(P, round_off * stiffness);
+    }
+  });
+}
+
+TEST(EveryLaw, SaysExactlyWhetherItsTangentIsSymmetric) {
+  for (FibreRate rate : rates)
+    for_each_case([&](const Case& c) {
+      const MaterialPointer m = c.material();
+      const Mat9 A = tangent(*m, general_point(rate));
+      Mat9 transposed;
+      for (int p = 0; p < 9; ++p)
+        for (int q = 0; q < 9; ++q) transposed[9 * p + q] = A[9 * q + p];
+      if (m->symmetric_tangent(rate))
+        EXPECT_LE(distance(A, transposed), round_off * size_of(A));
+      else
+        EXPECT_GT(distance(A, transposed), 1e-3 * size_of(A));
+    });
+}
+
+TEST(EveryLaw, IsNotANumberWhereThePointIsInvertedAndOnlyThere) {
+  for_each_case([](const Case& c) {
+    const MaterialPointer m = c.material();
+    const Mat3 F[3] = {general_F, {-1, 0, 0, 0, 1, 0, 0, 0, 1}, identity};
+    const Vec3 a[3] = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}};
+    const PointInput in{3, F, F, a, 0, 0.01, FibreRate::none};
+    Mat3 P[3];
+    whole_stress(*m, in, P, nullptr);
+    EXPECT_FALSE(std::isnan(P[0][0]));
+    EXPECT_TRUE(std::isnan(P[1][0]));
+    EXPECT_FALSE(std::isnan(P[2][0]));
+  });
+}
+
+TEST(EveryLaw, TreatsTheSamePointAlikeInAnyBatch) {
+  for_each_case([](const Case& c) {
+    const MaterialPointer m = c.material();
+    constexpr int n = 2 * block_size + 3;
+    std::vector<Mat3> F(n), F_old(n, general_F_old), P(n);
+    std::vector<Vec3> a(n, Vec3{0.8, 0.36, 0.48});
+    for (int p = 0; p < n; ++p) F[p] = stretched_along(general_F, a[p], 1 + 0.01 * p / n);
+    m->stress({n, F.data(), F_old.data(), a.data(), 0, 0.5, FibreRate::velocity_gradient}, P.data(), nullptr);
+    for (int p = 0; p < n; ++p) {
+      const Point alone{.F = F[p], .F_old = general_F_old, .rate = FibreRate::velocity_gradient, .dt = 0.5};
+      EXPECT_EQ(stress(*m, alone), P[p]) << p;
+    }
+  });
+}
+
+TEST(Registry, ListsEveryLawWithFormulaSourceAndDocumentedKeys) {
+  std::map<std::string, int> seen;
+  for (const LawInfo& law : laws()) {
+    SCOPED_TRACE(law.name);
+    EXPECT_EQ(seen[law.name]++, 0);
+    EXPECT_FALSE(law.formula.empty());
+    EXPECT_FALSE(law.source.empty());
+    EXPECT_FALSE(law.parameters.empty());
+    for (const KeyRecord& key : law.parameters) EXPECT_FALSE(key.doc.empty()) << key.path;
+    for (const ParameterSet& p : law.published) {
+      EXPECT_FALSE(p.tissue.empty());
+      EXPECT_FALSE(p.source.empty());
+    }
+  }
+  EXPECT_EQ(seen.count("yeoh"), 1u);
+  EXPECT_EQ(seen.count("simo"), 1u);
+}
+
+TEST(EveryVolumetricLaw, HasItsDerivativesAndRestsAtOne) {
+  for (const VolumetricEntry& entry : volumetric_entries()) {
+    SCOPED_TRACE(entry.info.name);
+    const double K = 2e6;
+    const MaterialPointer m = material(
+        "density = \"1000 kg/m^3\"\nvolumetric = { law = \"" + entry.info.name +
+        "\", bulk_modulus = \"2 MPa\" }\n[materials.m.terms]\nt = { law = \"neo_hookean\", mu = \"1 kPa\" }\n");
+    EXPECT_NEAR(m->volumetric(1).U, 0, round_off * K);
+    EXPECT_NEAR(m->volumetric(1).dU, 0, round_off * K);
+    EXPECT_NEAR(m->volumetric(1).d2U, K, round_off * K);
+    const double J = 1.2, h = 1e-4, second_order = 1e-6 * K;
+    const auto above = m->volumetric(J + h), below = m->volumetric(J - h), at = m->volumetric(J);
+    EXPECT_NEAR((above.U - below.U) / (2 * h), at.dU, second_order);
+    EXPECT_NEAR((above.dU - below.dU) / (2 * h), at.d2U, second_order);
+  }
+}
+
+}  // namespace
+}  // namespace titin::testing
