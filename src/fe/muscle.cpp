@@ -1,7 +1,9 @@
 #include "fe/muscle.hpp"
 
+#include <algorithm>
 #include <limits>
 
+#include "base/parallel.hpp"
 #include "base/timers.hpp"
 
 namespace titin {
@@ -40,13 +42,28 @@ Step Muscle::advance(double dt) {
   return step;
 }
 
-/// First guess of the step: the motion goes on, and the prescribed values are met by one linear solve. If that turns a cell
-/// inside out, the same from rest.
+/// First guess of the step: the motion goes on, as far as the prescribed values do, which are then met by one linear solve.
+/// If that turns a cell inside out, the same from rest.
 std::string Muscle::predict(Step& step) {
+  const double part = continued_part(step);
   mfem::Vector moved = u_;
-  moved.Add(step.dt, v_);
+  moved.Add(part * step.dt, v_);
   const std::string failure = predict_from(moved, step);
-  return failure.empty() ? failure : predict_from(u_, step);
+  return failure.empty() || part == 0 ? failure : predict_from(u_, step);
+}
+
+/// How much of the last velocity the prescribed values keep, 0 to 1; 1 when they were at rest.
+double Muscle::continued_part(const Step& step) const {
+  mfem::Vector prescribed = u_;
+  system_.constraints().set_values(step.time, prescribed);
+  double along = 0, square = 0;
+  for (int dof : system_.constraints().dofs()) {
+    along += (prescribed(dof) - u_(dof)) / step.dt * v_(dof);
+    square += v_(dof) * v_(dof);
+  }
+  along = sum(along);
+  square = sum(square);
+  return square > 0 ? std::clamp(along / square, 0.0, 1.0) : 1.0;
 }
 
 std::string Muscle::predict_from(const mfem::Vector& start, Step& step) {

@@ -32,6 +32,7 @@ class Muscle : public Model {
 
  private:
   std::string predict(Step& step);
+  double continued_part(const Step& step) const;
   std::string predict_from(const mfem::Vector& start, Step& step);
 
   NamedMesh mesh_;

@@ -118,11 +118,12 @@ void MuscleHistory::update(const mfem::Vector& u, const mfem::Vector& v, const S
 void MuscleHistory::add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in,
                              const double* v) {
   const CellTables& tables = system_.tables();
+  const bool moving = system_.config().inertia == Inertia::dynamic;
   for (int q = 0; q < in.n; ++q) {
     const double w = tables.weight(cell, q);
     volume_ += w * kernel.J()[q];
     volumetric_ += w * material.volumetric(kernel.dilatation()[q]).U;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3 && moving; ++i) {
       double velocity = 0;
       for (int a = 0; a < tables.nodes(); ++a) velocity += tables.shape(q)[a] * v[i * tables.nodes() + a];
       kinetic_ += 0.5 * material.density() * w * velocity * velocity;

@@ -1,5 +1,7 @@
 #include "solve/linear.hpp"
 
+#include "base/timers.hpp"
+
 namespace titin {
 
 namespace {
@@ -43,10 +45,11 @@ LinearSolver::LinearSolver(const LinearConfig& config, Mat K, bool symmetric) : 
 
 LinearSolver::~LinearSolver() { KSPDestroy(&ksp_); }
 
-void LinearSolver::matrix_changed() {
+bool LinearSolver::matrix_changed() {
   reused_ = factorised_ && failure().empty() && iterations() <= config_.reuse_limit;
   check(KSPSetReusePreconditioner(ksp_, reused_ ? PETSC_TRUE : PETSC_FALSE));
   factorised_ = true;
+  return reused_;
 }
 
 bool LinearSolver::forget_reused() {
@@ -55,6 +58,7 @@ bool LinearSolver::forget_reused() {
 }
 
 std::string LinearSolver::solve(mfem::Vector& b, mfem::Vector& x) {
+  Timers::Scope timer("linear solve");
   check(KSPSolve(ksp_, View(b).vec, View(x).vec));
   return failure();
 }

@@ -12,8 +12,8 @@ namespace titin {
 struct LinearConfig {
   /// Krylov iterations on an old factorisation that cost about as much as a new one: refactor above this many.
   int reuse_limit = 12;
-  /// Relative residual of a linear solve: small enough that Newton stays quadratic.
-  double tolerance = 1e-8;
+  /// Relative residual of a linear solve: small enough that Newton needs no more iterations than with exact solves.
+  double tolerance = 1e-4;
   void bind(Section& s);
 };
 
@@ -25,8 +25,8 @@ class LinearSolver {
   ~LinearSolver();
   LinearSolver(const LinearSolver&) = delete;
 
-  /// K has new values. Decides whether the old factorisation is used once more.
-  void matrix_changed();
+  /// K has new values. Decides whether the old factorisation is used once more; returns true if so.
+  bool matrix_changed();
   /// Forgets a factorisation that was of an earlier matrix; false when it is of the present one.
   bool forget_reused();
   /// x = K^-1 b. Returns "" or why it failed.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/timers.hpp"
+
 namespace titin {
 
 namespace {
@@ -73,6 +75,7 @@ Newton::~Newton() {
 }
 
 NewtonResult Newton::solve(mfem::Vector& u) {
+  Timers::Scope timer("linear solve");  // what is left when residual and tangent have their own
   result_ = {};
   outside_domain_ = false;
   assign(u, u_);
@@ -103,10 +106,11 @@ PetscErrorCode Newton::form_residual(SNES snes, Vec u, Vec R, void* self) {
   return 0;
 }
 
-PetscErrorCode Newton::form_tangent(SNES, Vec u, Mat, Mat K, void* context) {
+PetscErrorCode Newton::form_tangent(SNES snes, Vec u, Mat, Mat K, void* context) {
   auto* self = static_cast<Newton*>(context);
   self->system_.tangent(*ReadView(u), K);
-  self->linear_->matrix_changed();
+  // SNES decides on reuse anew after this call: a lag of -1 tells it never to refactor, 1 to do it now
+  check(SNESSetLagPreconditioner(snes, self->linear_->matrix_changed() ? -1 : 1));
   return 0;
 }
 

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <mfem.hpp>
+
 namespace titin {
 
 PetscSession::PetscSession() {
+  mfem::Hypre::Init();
   check(PetscInitializeNoArguments());
   check(PetscPopSignalHandler());                                  // signals end a run cleanly: scene/run
   check(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr));  // one sentence, not one traceback a rank

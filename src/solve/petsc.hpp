@@ -1,4 +1,4 @@
-/// PETSc for the life of the program, and its error codes as exceptions.
+/// PETSc and hypre for the life of the program, and PETSc's error codes as exceptions.
 #pragma once
 
 #include <petscsnes.h>
