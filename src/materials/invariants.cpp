@@ -2,6 +2,8 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include "materials/invariants.hpp"
 
+#include <algorithm>
+
 namespace titin {
 namespace {
 
@@ -69,19 +71,25 @@ void set_velocity_gradient(Kinematics<T>& k, const Tensor3<T>& F_old) {
   add<T>(k.G_rate, -scale * k.y * root / 3.0, pulled);
 }
 
-/// Terms of A that do not factor into dyads of gradients.
+/// A as a sum of a few shapes: dyads of tensors, and what does not factor into dyads.
 template <class T>
-struct Linear {
+struct Shapes {
   Tensor3<T> N{};    ///< delta_ik N_JL
   Tensor3<T> B{};    ///< B_ik delta_JL
   T ft = 0, ff = 0;  ///< Ft_iL Ft_kJ and F_iL F_kJ
   Tensor3<T> Y{};    ///< Ft (x) Y + Y (x) Ft
-  T FF = 0;          ///< F (x) F
+  Tensor3<T> Z{};    ///< Z (x) F
+  void add_dyad(const Tensor3<T>& left, const Tensor3<T>& right) { dyads[count++] = {&left, &right}; }
+  struct Dyad {
+    const Tensor3<T>*left, *right;  // not copies: copying would cost as much as multiplying
+  };
+  std::array<Dyad, 3 + invariant_count> dyads;
+  int count = 0;
 };
 
 /// W_1 D_1 and, isochoric, W_4 D_4: both are 2 J^-2/3 (H N - ...) with N = W_1 I + W_4 a0 (x) a0.
 template <class T>
-void add_isochoric(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W, Linear<T>& L) {
+void add_isochoric(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W, Shapes<T>& L) {
   Tensor3<T> N{};
   if (used.has(Invariant::I1)) N[0] = N[4] = N[8] = W.first[index(Invariant::I1)];
   if (used.has(Invariant::I4)) add<T>(N, W.first[index(Invariant::I4)], dyad(k.a0, k.a0));
@@ -96,13 +104,13 @@ void add_isochoric(const Kinematics<T>& k, InvariantSet used, const EnergyDeriva
 }
 
 template <class T>
-void add_full_fibre(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Linear<T>& L) {
+void add_full_fibre(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Shapes<T>& L) {
   add<T>(L.N, 2.0 * W.first[index(Invariant::I4)], dyad(k.a0, k.a0));
 }
 
 /// W_2 D_2 with g = 2 (I1 F - F C) of the unsplit invariants.
 template <class T>
-void add_second(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Linear<T>& L) {
+void add_second(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Shapes<T>& L) {
   const T w = W.first[index(Invariant::I2)] * k.y * k.y * k.y * k.y;
   const Tensor3<T> C = multiply(transpose(k.F), k.F), B = multiply(k.F, transpose(k.F));
   const T I1 = trace(C), I2 = 0.5 * (I1 * I1 - contract(C, C));
@@ -112,22 +120,22 @@ void add_second(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Linear<T>
   add<T>(L.N, -2.0 * w, C);
   add<T>(L.B, -2.0 * w, B);
   L.ff -= 2.0 * w;
-  L.FF += 4.0 * w;
+  L.Z = scaled<T>(4.0 * w, k.F);
   add<T>(L.Y, -4.0 / 3 * w, g);
   add<T>(L.Y, 8.0 / 9 * w * I2, k.Ft);
   L.ft += 4.0 / 3 * w * I2;
 }
 
 template <class T>
-void add_volume(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Linear<T>& L) {
+void add_volume(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Shapes<T>& L) {
   const T w = W.first[index(Invariant::J)] * k.J;
   add<T>(L.Y, 0.5 * w, k.Ft);
   L.ft -= w;
 }
 
 template <class T>
-Linear<T> linear_part(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W) {
-  Linear<T> L;
+Shapes<T> linear_part(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W) {
+  Shapes<T> L;
   InvariantSet isochoric;
   if (used.has(Invariant::I1)) isochoric.insert(Invariant::I1);
   if (used.has(Invariant::I4) && k.options.measure == FibreMeasure::isochoric) isochoric.insert(Invariant::I4);
@@ -138,22 +146,23 @@ Linear<T> linear_part(const Kinematics<T>& k, InvariantSet used, const EnergyDer
   return L;
 }
 
+/// One row of A at a time, so that it stays in registers.
 template <class T>
-void write_linear(const Kinematics<T>& k, bool second, const Linear<T>& L, std::array<T, 81>& A) {
+void write(const Kinematics<T>& k, bool second, const Shapes<T>& L, std::array<T, 81>& A) {
   for (int i = 0; i < 3; ++i)
     for (int J = 0; J < 3; ++J) {
       const int p = 3 * i + J;
-      T* row = &A[9 * p];
-      for (int q = 0; q < 9; ++q) row[q] = k.Ft[p] * L.Y[q] + L.Y[p] * k.Ft[q];
+      Tensor3<T> row;
       for (int c = 0; c < 3; ++c)
-        for (int D = 0; D < 3; ++D) row[3 * c + D] += L.ft * k.Ft[3 * i + D] * k.Ft[3 * c + J];
+        for (int D = 0; D < 3; ++D) row[3 * c + D] = L.ft * k.Ft[3 * i + D] * k.Ft[3 * c + J];
+      for (int n = 0; n < L.count; ++n) add(row, (*L.dyads[n].left)[p], *L.dyads[n].right);
+      if (second)
+        for (int c = 0; c < 3; ++c) {
+          for (int D = 0; D < 3; ++D) row[3 * c + D] += L.ff * k.F[3 * i + D] * k.F[3 * c + J];
+          row[3 * c + J] += L.B[3 * i + c];
+        }
       for (int D = 0; D < 3; ++D) row[3 * i + D] += L.N[3 * J + D];
-      if (!second) continue;
-      for (int c = 0; c < 3; ++c) {
-        for (int D = 0; D < 3; ++D) row[3 * c + D] += L.ff * k.F[3 * i + D] * k.F[3 * c + J];
-        row[3 * c + J] += L.B[3 * i + c];
-      }
-      for (int q = 0; q < 9; ++q) row[q] += L.FF * k.F[p] * k.F[q];
+      std::copy(row.begin(), row.end(), &A[9 * p]);
     }
 }
 
@@ -253,19 +262,23 @@ template <class T>
 Tensor3<T> assemble_tangent(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W,
                             std::array<T, 81>& A) {
   const auto G = gradients(k, used);
-  write_linear(k, used.has(Invariant::I2), linear_part(k, used, W), A);
+  PerInvariant<Tensor3<T>> V;  // sum_b W_ab G_b
+  Shapes<T> shapes = linear_part(k, used, W);
+  shapes.add_dyad(k.Ft, shapes.Y);
+  shapes.add_dyad(shapes.Y, k.Ft);
+  if (used.has(Invariant::I2)) shapes.add_dyad(shapes.Z, k.F);
   const bool rate = used.has(Invariant::rate) && k.options.rate == FibreRate::velocity_gradient;
   const int columns = invariant_count - (rate ? 0 : 1);
   Tensor3<T> P{};
   for (int a = 0; a < index(Invariant::rate); ++a) {
     if (!used.has(Invariant(a))) continue;
     add(P, W.first[a], G[a]);
-    Tensor3<T> V{};
+    V[a] = scaled(W.second[a][a], G[a]);
     for (int b = 0; b < columns; ++b)
-      if (used.has(Invariant(b))) add(V, W.second[a][b], G[b]);
-    for (int p = 0; p < 9; ++p)
-      for (int q = 0; q < 9; ++q) A[9 * p + q] += G[a][p] * V[q];
+      if (b != a && used.has(Invariant(b))) add(V[a], W.second[a][b], G[b]);
+    shapes.add_dyad(G[a], V[a]);
   }
+  write(k, used.has(Invariant::I2), shapes, A);
   return P;
 }
 

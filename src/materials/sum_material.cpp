@@ -22,8 +22,11 @@ std::array<Lanes, size> gather_all(const std::array<double, size>* points, int f
 
 template <std::size_t size>
 void scatter_all(const std::array<Lanes, size>& x, std::array<double, size>* points, int first, int n) {
-  for (int lane = 0; lane < lane_count && first + lane < n; ++lane)
-    for (std::size_t c = 0; c < size; ++c) points[first + lane][c] = x[c][lane];
+  alignas(64) double lanes[size][lane_count];  // by way of memory: taking lanes out of registers one by one is slow
+  for (std::size_t c = 0; c < size; ++c) x[c].copy_to(lanes[c], std::experimental::vector_aligned);
+  const int count = std::min(lane_count, n - first);
+  for (std::size_t c = 0; c < size; ++c)
+    for (int lane = 0; lane < count; ++lane) points[first + lane][c] = lanes[c][lane];
 }
 
 Lanes load(const BlockValues& values, int group) {
