@@ -153,16 +153,22 @@ void write(const Kinematics<T>& k, bool second, const Shapes<T>& L, std::array<T
     for (int J = 0; J < 3; ++J) {
       const int p = 3 * i + J;
       Tensor3<T> row;
-      for (int c = 0; c < 3; ++c)
-        for (int D = 0; D < 3; ++D) row[3 * c + D] = L.ft * k.Ft[3 * i + D] * k.Ft[3 * c + J];
-      for (int n = 0; n < L.count; ++n) add(row, (*L.dyads[n].left)[p], *L.dyads[n].right);
-      if (second)
-        for (int c = 0; c < 3; ++c) {
-          for (int D = 0; D < 3; ++D) row[3 * c + D] += L.ff * k.F[3 * i + D] * k.F[3 * c + J];
-          row[3 * c + J] += L.B[3 * i + c];
-        }
-      for (int D = 0; D < 3; ++D) row[3 * i + D] += L.N[3 * J + D];
-      std::copy(row.begin(), row.end(), &A[9 * p]);
+#pragma GCC unroll 9
+      for (int q = 0; q < 9; ++q) row[q] = L.ft * k.Ft[3 * i + q % 3] * k.Ft[3 * (q / 3) + J];
+      for (int n = 0; n < L.count; ++n) {
+        const T left = (*L.dyads[n].left)[p];
+#pragma GCC unroll 9
+        for (int q = 0; q < 9; ++q) row[q] += left * (*L.dyads[n].right)[q];
+      }
+      T* out = &A[9 * p];
+#pragma GCC unroll 9
+      for (int q = 0; q < 9; ++q) out[q] = row[q];
+      for (int D = 0; D < 3; ++D) out[3 * i + D] += L.N[3 * J + D];
+      if (!second) continue;
+      for (int c = 0; c < 3; ++c) {
+        for (int D = 0; D < 3; ++D) out[3 * c + D] += L.ff * k.F[3 * i + D] * k.F[3 * c + J];
+        out[3 * c + J] += L.B[3 * i + c];
+      }
     }
 }
 
