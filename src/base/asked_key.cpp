@@ -74,6 +74,14 @@ std::string shown(const toml::node& node) {
   return node.is_table() ? "a table" : node.is_array() ? "a list" : "a date or time of day";
 }
 
+bool AskedKey::can_be_said(const std::vector<double>& values) const {
+  return node || std::all_of(values.begin(), values.end(), [&](double x) { return key.range.contains(x); });
+}
+
+void AskedKey::keep_numbers(const std::vector<double>& values, bool list) const {
+  keep(can_be_said(values) ? toml_numbers(values, key.unit, list) : "");
+}
+
 AskedKey ask(SceneText& scene, const std::string& table, std::string_view name, const Key& key, const std::string& type,
              const std::string& default_value, const std::vector<std::string>& choices) {
   scene.ask(table, name);
@@ -141,7 +149,7 @@ std::vector<int> whole_numbers(const AskedKey& asked, int size) {
 
 std::string toml_numbers(const std::vector<double>& values, std::string_view unit, bool list) {
   if (!std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); })) return "";
-  if (!unit.empty()) return values.empty() ? "" : '"' + units::text(values, unit) + '"';
+  if (!unit.empty() && !values.empty()) return '"' + units::text(values, unit) + '"';
   return list ? fmt::format("[{}]", fmt::join(values, ", ")) : units::text(values, "");
 }
 

@@ -18,7 +18,11 @@ struct AskedKey {
   const toml::node* node = nullptr;  // null when the scene does not say it
 
   void complain(const std::string& problem, const std::string& advice = "") const;
-  void keep(const std::string& value) const;  ///< for resolved.toml, as TOML; "" leaves it out
+  /// For resolved.toml, as TOML; "" leaves it out.
+  void keep(const std::string& value) const;
+  void keep_numbers(const std::vector<double>& values, bool list) const;
+  /// A default that its own range excludes means "none": no scene can say it.
+  bool can_be_said(const std::vector<double>& values) const;
 };
 
 /// Registers the key, and misses it if it is required and not there.

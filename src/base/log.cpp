@@ -5,7 +5,7 @@
 
 #include "base/parallel.hpp"
 
-namespace titin::log {
+namespace titin::logging {
 namespace {
 
 struct CloseFile {
@@ -58,4 +58,4 @@ void error(std::string_view line) {
 
 int warnings() { return warning_count; }
 
-}  // namespace titin::log
+}  // namespace titin::logging

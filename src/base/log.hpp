@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace titin::log {
+namespace titin::logging {  // "log" is the logarithm, of dual numbers too
 
 enum class Level { quiet, normal, verbose, debug };  // -q, nothing, -v, -vv
 
@@ -30,4 +30,4 @@ void detail(fmt::format_string<Args...> text, Args&&... args) {
   write(Level::verbose, fmt::format(text, std::forward<Args>(args)...));
 }
 
-}  // namespace titin::log
+}  // namespace titin::logging

@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 namespace titin {
 namespace {
@@ -74,6 +76,27 @@ std::string broadcast(std::string text, MPI_Comm comm) {
   text.resize(size);
   MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, 0, comm);
   return text;
+}
+
+std::string mpi_version() {
+  char text[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+  int length = 0;
+  if (running()) MPI_Get_library_version(text, &length);
+  const std::string all(text, length);
+  return all.substr(0, all.find_first_of(",\n"));
+}
+
+bool all_arrive(double seconds) {
+  if (!running()) return true;
+  MPI_Request request;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  for (const double end = MPI_Wtime() + seconds; MPI_Wtime() < end;) {
+    int arrived = 0;
+    MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+    if (arrived) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
 }
 
 void abort_all(int exit_code) {

@@ -30,6 +30,9 @@ long sum(long x, MPI_Comm comm = MPI_COMM_WORLD);
 void sum(std::vector<double>& x, MPI_Comm comm = MPI_COMM_WORLD);  ///< in place, elementwise
 bool any_of(bool x, MPI_Comm comm = MPI_COMM_WORLD);
 std::string broadcast(std::string text, MPI_Comm comm = MPI_COMM_WORLD);  ///< rank 0's
+std::string mpi_version();  ///< name and version of the library; not collective
+/// Do all ranks get here within some seconds? Tells an error that all ranks met from one that only some did.
+bool all_arrive(double seconds);
 /// Ends all ranks at once, for an error that only some of them met. Not collective.
 [[noreturn]] void abort_all(int exit_code);
 

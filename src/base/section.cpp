@@ -17,7 +17,7 @@ void Section::read(std::string_view name, double& value, Key key) {
   const AskedKey asked = ask(*scene_, path_, name, key, "number", units::text(value, key.unit));
   if (asked.node)
     if (const Numbers x = numbers(asked, 1)) value = x->front();
-  asked.keep(toml_numbers({value}, key.unit, false));
+  asked.keep_numbers({value}, false);
 }
 
 void Section::read(std::string_view name, std::vector<double>& value, Key key) {
@@ -25,7 +25,7 @@ void Section::read(std::string_view name, std::vector<double>& value, Key key) {
   const AskedKey asked = ask(*scene_, path_, name, key, type, units::text(value, value.empty() ? "" : key.unit));
   if (asked.node)
     if (Numbers x = numbers(asked, key.size)) value = std::move(*x);
-  asked.keep(toml_numbers(value, key.unit, true));
+  asked.keep_numbers(value, true);
 }
 
 void Section::read(std::string_view name, std::array<double, 3>& value, Key key) {
@@ -39,14 +39,14 @@ void Section::read(std::string_view name, int& value, Key key) {
   const AskedKey asked = ask(*scene_, path_, name, key, "whole number", fmt::format("{}", value));
   if (asked.node)
     if (const auto x = whole_numbers(asked, 1); !x.empty()) value = x.front();
-  asked.keep(fmt::format("{}", value));
+  asked.keep_numbers({static_cast<double>(value)}, false);
 }
 
 void Section::read(std::string_view name, std::array<int, 3>& value, Key key) {
   const AskedKey asked = ask(*scene_, path_, name, key, "3 whole numbers", fmt::format("{}", fmt::join(value, ", ")));
   if (asked.node)
     if (const auto x = whole_numbers(asked, 3); !x.empty()) std::copy_n(x.begin(), 3, value.begin());
-  asked.keep(fmt::format("[{}]", fmt::join(value, ", ")));
+  asked.keep_numbers({value.begin(), value.end()}, true);
 }
 
 void Section::read(std::string_view name, bool& value, Key key) {
@@ -64,7 +64,7 @@ void Section::read(std::string_view name, std::string& value, Key key) {
     value = asked.node->as_string()->get();
   else if (asked.node)
     asked.complain(fmt::format("{} is no text", shown(*asked.node)), "put it in quotation marks");
-  asked.keep(toml_string(value));
+  asked.keep(asked.node || !value.empty() ? toml_string(value) : "");
 }
 
 void Section::read(std::string_view name, std::vector<std::string>& value, Key key) {
@@ -85,7 +85,7 @@ void Section::read(std::string_view name, std::vector<std::string>& value, Key k
   }
   std::vector<std::string> written;
   for (const std::string& word : value) written.push_back(toml_string(word));
-  asked.keep(fmt::format("[{}]", fmt::join(written, ", ")));
+  asked.keep(asked.node || !value.empty() ? fmt::format("[{}]", fmt::join(written, ", ")) : "");
 }
 
 void Section::choose_word(std::string_view name, int& index, const std::vector<std::string>& words, Key key) {

@@ -91,7 +91,7 @@ void Section::read(std::string_view name, Table& value, Key key) {
   } else if (asked.node) {
     if (const Numbers x = numbers(asked, 1)) value = Table(x->front());
   }
-  asked.keep(toml_table(value, key.unit));
+  asked.keep(asked.can_be_said(value.value()) ? toml_table(value, key.unit) : "");
 }
 
 }  // namespace titin

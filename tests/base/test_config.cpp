@@ -268,7 +268,6 @@ cells = [1, 1, 1]
 fat = 0
 fields = true
 weights = []
-markers = []
 
 [boundary]
 
@@ -289,6 +288,21 @@ TEST(Config, DoesNotWriteDefaultsWhosePresenceMatters) {
   s.read("a", a, {});
   if (!s.has("b")) s.read("b", b, {});
   if (!s.has("sub")) s.section("sub").read("c", c, {});
+  EXPECT_EQ(config.resolved(), "a = 1\n");
+}
+
+// "none" is a default that no scene can say.
+TEST(Config, DoesNotWriteDefaultsOutsideTheirOwnRange) {
+  Config config("a = 1\n", "block.toml");
+  Section s = config.root();
+  double a = 0, interval = 0, infinite = std::numeric_limits<double>::infinity();
+  Table pressure(-1);
+  std::string file;
+  s.read("a", a, {});
+  s.read("interval", interval, {.unit = "s", .range = positive});
+  s.read("infinite", infinite, {.unit = "s"});
+  s.read("pressure", pressure, {.unit = "Pa", .range = positive});
+  s.read("file", file, {});
   EXPECT_EQ(config.resolved(), "a = 1\n");
 }
 

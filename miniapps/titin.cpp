@@ -1,0 +1,113 @@
+/// The driver: `titin run | check | materials | keys | help`. Exit codes: 0 finished, 1 input error, 2 did not
+/// converge, 3 stopped by a signal, 4 internal error.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+
+#include "base/config.hpp"
+#include "base/log.hpp"
+#include "base/parallel.hpp"
+#include "base/version.hpp"
+#include "scene/manual.hpp"
+#include "scene/run.hpp"
+#include "solve/petsc.hpp"
+
+namespace titin {
+namespace {
+
+constexpr int input_error = 1, internal_error = 4;
+
+/// The command line, and what it asks for.
+struct Driver {
+  CLI::App app{"Titin: solid dynamics of soft tissue and of shocks.", "titin"};
+  RunOptions options;
+  std::string prefix, law;
+  bool json = false, quiet = false;
+  int verbosity = 0;
+  CLI::App *run = nullptr, *check = nullptr, *materials = nullptr, *keys = nullptr, *help = nullptr;
+
+  Driver() {
+    app.set_version_flag("--version", fmt::format("Titin {} ({})", version(), commit()));
+    app.require_subcommand(1);
+    run = app.add_subcommand("run", "Run a scene");
+    check = app.add_subcommand("check", "Read a scene and say what it would be; write nothing");
+    materials = app.add_subcommand("materials", "List the material laws, or tell all of one");
+    keys = app.add_subcommand("keys", "List what a scene may say");
+    help = app.add_subcommand("help", "Print this");
+    for (CLI::App* with_scene : {run, check}) {
+      with_scene->add_option("SCENE", options.scene_file, "Scene file (TOML)")->required();
+      with_scene->add_option("key=value", options.overrides, "Replace values of the scene: time.step=\"10 ms\"");
+    }
+    run->add_option("-o", options.folder, "Output folder (default: results/<name of the scene>)")->type_name("DIR");
+    run->add_flag("--overwrite", options.overwrite, "Replace an earlier run in the output folder");
+    run->add_flag("-v", verbosity, "Say more; -vv: all");
+    run->add_flag("-q", quiet, "Say only warnings and errors");
+    materials->add_option("NAME", law, "Name of a law");
+    keys->add_option("PREFIX", prefix, "Only keys that begin so, such as time or boundary.");
+    keys->add_flag("--json", json, "As JSON");
+  }
+
+  int act() {
+    using logging::Level;
+    logging::set_level(quiet            ? Level::quiet
+                       : verbosity == 0 ? Level::normal
+                       : verbosity == 1 ? Level::verbose
+                                        : Level::debug);
+    if (help->parsed()) logging::write(Level::quiet, Driver().app.help());  // of all, not of "help"
+    if (materials->parsed()) print_materials(law);
+    if (keys->parsed()) print_keys(prefix, json);
+    if (check->parsed()) check_scene(options);
+    return run->parsed() ? static_cast<int>(titin::run(options)) : 0;
+  }
+};
+
+/// Usage, help and version: CLI11 tells them as exceptions.
+int explain(const CLI::App& app, const CLI::ParseError& e) {
+  if (e.get_exit_code() == 0) {
+    if (is_root()) app.exit(e);
+    return 0;
+  }
+  logging::error(fmt::format("{}; see titin help", e.what()));
+  return input_error;
+}
+
+/// One message for all ranks if all met the error; else every rank that met it speaks, and the others are ended.
+int report(const std::vector<std::string>& messages, int exit_code) {
+  const bool all = all_arrive(2);
+  for (const std::string& message : messages)
+    all ? logging::error(message) : void(fmt::print(stderr, "error: rank {}: {}\n", rank(), message));
+  if (!all) abort_all(exit_code);
+  return exit_code;
+}
+
+int guarded(const std::function<int()>& act) {
+  try {
+    return act();
+  } catch (const InputError& error) {
+    return report(error.messages(), input_error);
+  } catch (const std::bad_alloc&) {
+    return report({"out of memory; use more nodes, or fewer cells"}, internal_error);
+  } catch (const std::exception& error) {
+    return report({fmt::format("internal: {}", error.what())}, internal_error);
+  } catch (...) {
+    return report({"internal: an exception of no known type"}, internal_error);
+  }
+}
+
+}  // namespace
+}  // namespace titin
+
+int main(int argc, char** argv) {
+  using namespace titin;
+  const MpiSession mpi(argc, argv);
+  Driver driver;
+  try {
+    driver.app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return explain(driver.app, error);
+  }
+  return guarded([&] {
+    const PetscSession petsc;
+    return driver.act();
+  });
+}

@@ -1,0 +1,13 @@
+/// What the program knows, printed: `titin keys` and `titin materials`.
+#pragma once
+
+#include <string>
+
+namespace titin {
+
+/// Keys whose path begins with `prefix`, as an aligned table or as JSON. Throws InputError when there are none.
+void print_keys(const std::string& prefix, bool json);
+/// All laws in one line each, or everything about one. Throws InputError for an unknown name.
+void print_materials(const std::string& name);
+
+}  // namespace titin

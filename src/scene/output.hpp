@@ -1,0 +1,50 @@
+/// What a run writes when: a row of history.csv for every accepted step, fields for ParaView now and then.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/config.hpp"
+#include "io/paraview.hpp"
+#include "io/run_folder.hpp"
+#include "io/time_series.hpp"
+#include "solve/clock.hpp"
+#include "solve/model.hpp"
+
+namespace titin {
+
+struct OutputConfig {
+  bool fields = true;
+  int every = 1;        // steps
+  double interval = 0;  // [s]; 0: by steps
+  void bind(Section& s);
+};
+
+/// All functions are collective.
+class Output {
+ public:
+  /// Writes the initial state.
+  Output(const OutputConfig& config, const RunFolder& folder, Model& model);
+  /// Of the state that was just accepted.
+  void write(const Clock& clock);
+  /// The last state is always among the fields.
+  void finish(const Clock& clock);
+
+  const std::vector<Quantity>& quantities() const { return quantities_; }  ///< as last written
+  const Quantity& shown() const;                                           ///< the one for the line of a step
+
+ private:
+  bool fields_are_due(const Clock& clock);
+  void write_row(double time);
+  void write_fields(int step, double time);
+
+  OutputConfig config_;
+  Model& model_;
+  std::vector<Quantity> quantities_;
+  std::unique_ptr<TimeSeries> history_;
+  std::unique_ptr<ParaView> paraview_;
+  int last_fields_ = -1;  // step
+  long intervals_done_ = 0;
+};
+
+}  // namespace titin
