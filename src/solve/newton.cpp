@@ -12,6 +12,7 @@ namespace {
 
 constexpr int max_backtracks = 8;          // smallest trial step: 2^-8 of Newton's
 constexpr double armijo = 1e-4;            // asked decrease of |R|, as usual (Nocedal, Wright 2006, section 3.1)
+constexpr double still = 1e-12;            // an increment below this part of u changes its round-off only: no more can be had
 constexpr double smallest_cut = 0.1, largest_cut = 0.5;  // of a step length that failed
 
 /// MFEM's view of this rank's part of a PETSc vector; no copy.
@@ -114,7 +115,8 @@ PetscErrorCode Newton::form_tangent(SNES snes, Vec u, Mat, Mat K, void* context)
   return 0;
 }
 
-PetscErrorCode Newton::test(SNES, PetscInt, PetscReal, PetscReal, PetscReal norm, SNESConvergedReason* reason, void* context) {
+PetscErrorCode Newton::test(SNES, PetscInt iteration, PetscReal u_norm, PetscReal increment, PetscReal norm,
+                            SNESConvergedReason* reason, void* context) {
   auto* self = static_cast<Newton*>(context);
   const double scale = self->system_.force_scale();
   self->result_.residual = scale > 0 ? norm / scale : norm;
@@ -122,6 +124,7 @@ PetscErrorCode Newton::test(SNES, PetscInt, PetscReal, PetscReal, PetscReal norm
   *reason = SNES_CONVERGED_ITERATING;
   if (std::isnan(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
   else if (norm <= self->config_.tolerance * scale) *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  else if (iteration > 0 && increment <= still * u_norm) *reason = SNES_CONVERGED_SNORM_RELATIVE;
   return 0;
 }
 

@@ -54,7 +54,8 @@ class Newton {
  private:
   static PetscErrorCode form_residual(SNES, Vec u, Vec R, void* self);
   static PetscErrorCode form_tangent(SNES, Vec u, Mat, Mat K, void* self);
-  static PetscErrorCode test(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal norm, SNESConvergedReason*, void* self);
+  static PetscErrorCode test(SNES, PetscInt iteration, PetscReal u_norm, PetscReal increment, PetscReal norm,
+                             SNESConvergedReason*, void* self);
   static PetscErrorCode search(SNESLineSearch, void* self);
   PetscErrorCode backtrack(SNESLineSearch line_search);
   bool evaluate(Vec u, Vec R);
