@@ -25,6 +25,15 @@ TEST(HillCurves, ActiveForceHasThePublishedValues) {
   for (const Value& v : table) EXPECT_NEAR(hill::active_force(HillCurve::flexodeal, v.x), v.f, printed) << v.x;
 }
 
+TEST(HillCurves, TabulatedSinesAreTheSines) {
+  const double value = 4e-15, slope = 4e-12;  // neglected Taylor terms
+  for (double x = hill::active_min; x <= hill::active_max; x += 1.7e-4) {
+    const auto f = hill::active_sine_sum(Dual<1, 1>::variable(x, 0));
+    EXPECT_NEAR(f.value, hill::active_sines_derivative(x, 0), value) << x;
+    EXPECT_NEAR(f.gradient[0], hill::active_sines_derivative(x, 1), slope) << x;
+  }
+}
+
 TEST(HillCurves, SmoothActiveForceIsNeverNegativeAndHasNoKinks) {
   double last = 0, last_slope = 0;
   const double h = 1e-4;
