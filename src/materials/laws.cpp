@@ -1,10 +1,16 @@
 /// The list of laws: one line each, and nothing else to do for a new one.
 #include "materials/collagen_table.hpp"
+#include "materials/compressible_neo_hookean.hpp"
 #include "materials/hill_active.hpp"
 #include "materials/hill_passive.hpp"
+#include "materials/holmes_mow.hpp"
+#include "materials/linear_fibre.hpp"
 #include "materials/mooney_rivlin.hpp"
 #include "materials/neo_hookean.hpp"
+#include "materials/st_venant_kirchhoff.hpp"
+#include "materials/veronda_westmann.hpp"
 #include "materials/volumetric.hpp"
+#include "materials/weiss_fibre.hpp"
 #include "materials/yeoh.hpp"
 
 namespace titin {

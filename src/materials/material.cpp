@@ -35,18 +35,7 @@ void read_term(const std::string& name, Section s, double weight, SumMaterial::P
   parts.terms.push_back({{name, entry->info.name, entry->info.stores_energy}, weight, entry->read(s)});
 }
 
-/// Density, volumetric function and terms: what a material and its mix both have.
-void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
-  double density = 0;
-  s.read("density", density, {.unit = "kg/m^3", .range = positive, .required = true, .doc = "reference density"});
-  parts.density += weight * density;
-  const bool given = s.has("volumetric");
-  Section v = s.section("volumetric", "energy of a change of volume");
-  if (const VolumetricEntry* entry =
-          given || s.describing() ? choose_law(v, volumetric_entries(), "simo", "volumetric function") : nullptr)
-    parts.volumetric.push_back({weight, entry->read(v)});
-  if (!given && !s.describing())
-    s.error("", "no volumetric law", "add volumetric = { law = \"simo\", bulk_modulus = \"10 MPa\" }");
+void read_terms(Section& s, double weight, SumMaterial::Parts& parts) {
   int terms = 0;
   s.each("terms", "what adds up to the material's energy; the names are yours",
          [&](const std::string& name, Section term) {
@@ -54,6 +43,29 @@ void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
            read_term(name, term, weight, parts);
          });
   if (terms == 0) s.error("", "no terms, no strength", "add [" + s.path() + ".terms] with at least one law");
+}
+
+/// Laws in J have their own resistance to changes of volume; the others need a volumetric function.
+void read_volumetric(Section& s, double weight, bool needed, SumMaterial::Parts& parts) {
+  if (!s.has("volumetric") && !s.describing()) {
+    if (needed) s.error("", "no volumetric law", "add volumetric = { law = \"simo\", bulk_modulus = \"10 MPa\" }");
+    return;
+  }
+  Section v = s.section("volumetric", "energy of a change of volume; laws that do not split it off take none");
+  if (const VolumetricEntry* entry = choose_law(v, volumetric_entries(), "simo", "volumetric function"))
+    parts.volumetric.push_back({weight, entry->read(v)});
+}
+
+/// Density, terms and volumetric function: what a material and its mix both have.
+void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
+  double density = 0;
+  s.read("density", density, {.unit = "kg/m^3", .range = positive, .required = true, .doc = "reference density"});
+  parts.density += weight * density;
+  const std::size_t first = parts.terms.size();
+  read_terms(s, weight, parts);
+  const auto compressible = [](const WeightedTerm& t) { return t.term->uses().has(Invariant::J); };
+  const bool has_volume = std::any_of(parts.terms.begin() + first, parts.terms.end(), compressible);
+  read_volumetric(s, weight, !has_volume, parts);
 }
 
 void read_fibre(Section& s, SumMaterial::Parts& parts) {

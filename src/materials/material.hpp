@@ -42,6 +42,8 @@ class Material {
   virtual double density() const = 0;  ///< reference density [kg/m^3]
   virtual Vec3 fibre() const = 0;      ///< unit reference direction; {0,0,0} without fibres
   virtual bool has_fibres() const = 0;
+  /// Without one, the terms themselves resist changes of volume: nothing for formulations that split it off.
+  virtual bool has_volumetric_law() const = 0;
   virtual bool symmetric_tangent(FibreRate rate) const = 0;
   virtual const std::vector<TermInfo>& terms() const = 0;
 

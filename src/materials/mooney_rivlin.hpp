@@ -15,8 +15,10 @@ struct MooneyRivlin {
   double c1 = 0, c2 = 0;
 
   void bind(Section& s) {
-    s.read("c1", c1, {.unit = "Pa", .range = positive, .required = true, .doc = "factor of I1 - 3"});
-    s.read("c2", c2, {.unit = "Pa", .range = non_negative, .required = true, .doc = "factor of I2 - 3"});
+    s.read("c1", c1, {.unit = "Pa", .required = true, .doc = "factor of I1 - 3"});
+    s.read("c2", c2, {.unit = "Pa", .required = true, .doc = "factor of I2 - 3"});
+    if (!s.describing() && !(c1 + c2 > 0))
+      s.error("c1", "the shear modulus 2 (c1 + c2) is not positive", "raise c1 or c2");
   }
   template <class T>
   T energy(const Invariants<T>& x) const {

@@ -36,6 +36,7 @@ class SumMaterial final : public Material {
   double density() const override { return parts_.density; }
   Vec3 fibre() const override { return parts_.fibre; }
   bool has_fibres() const override { return used_.has(Invariant::I4); }
+  bool has_volumetric_law() const override { return !parts_.volumetric.empty(); }
   bool symmetric_tangent(FibreRate rate) const override;
   const std::vector<TermInfo>& terms() const override { return infos_; }
 

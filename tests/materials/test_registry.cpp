@@ -22,6 +22,11 @@ const std::map<std::string, std::vector<std::string>>& more_parameters() {
        {R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "flexodeal_smooth")",
         R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "degroote")"}},
       {"hill_passive", {R"(peak_stress = "200 kPa", curve = "degroote")"}},
+      {"veronda_westmann", {R"(c1 = "2 kPa", c2 = 3)"}},
+      {"compressible_neo_hookean", {R"(mu = "10 kPa", lambda = "40 kPa")"}},
+      {"st_venant_kirchhoff", {R"(mu = "10 kPa", lambda = "40 kPa")"}},
+      {"holmes_mow", {R"(mu = "0.2 MPa", lambda = "0.1 MPa", beta = 1.1)"}},
+      {"linear_fibre", {R"(stiffness = "200 kPa")"}},
       {"collagen_table", {R"(stress_scale = "200 kPa", stress_free_rest = true)"}},
   };
   return sets;

@@ -1,0 +1,50 @@
+/// Collagen fibres of ligament and tendon after Weiss: Kirchhoff stress sigma = lambda dW/dlambda [Pa] with
+///   0 below stretch 1,  c3 (exp(c4 (lambda - 1)) - 1) while they uncrimp,  c5 lambda + c6 from lambda_straight on,
+/// c6 such that sigma is continuous. Weiss, Maker & Govindjee (1996), Comput. Methods Appl. Mech. Eng. 135, 107.
+/// The matrix is a term of its own (mooney_rivlin or neo_hookean).
+#pragma once
+
+#include "materials/registry.hpp"
+
+namespace titin {
+
+struct WeissFibre {
+  static constexpr auto name = "weiss_fibre";
+  static constexpr auto formula =
+      "lambda dW/dlambda = 0 (lambda < 1), c3 (exp(c4 (lambda - 1)) - 1), c5 lambda + c6 (lambda > lambda_straight)";
+  static constexpr auto source = "Weiss, Maker & Govindjee 1996, Comput. Methods Appl. Mech. Eng. 135:107";
+  static constexpr bool uses_rate = false;
+  inline static const std::array published{ParameterSet{
+      "human medial collateral ligament", R"(c3 = "0.57 MPa", c4 = 48, c5 = "467.1 MPa", lambda_straight = 1.062)",
+      "Gardiner & Weiss 2003, J. Orthop. Res. 21:1098 (matrix c1 = 1.44 MPa)"}};
+
+  double c3 = 0, c4 = 0, c5 = 0, lambda_straight = 0;
+
+  void bind(Section& s) {
+    s.read("c3", c3, {.unit = "Pa", .range = positive, .required = true, .doc = "stress scale while fibres uncrimp"});
+    s.read("c4", c4, {.range = positive, .required = true, .doc = "how fast they uncrimp"});
+    s.read("c5", c5, {.unit = "Pa", .range = positive, .required = true, .doc = "modulus of straight fibres"});
+    s.read("lambda_straight", lambda_straight,
+           {.range = {.min = 1, .open_min = true}, .required = true, .doc = "stretch from which fibres are straight"});
+  }
+  template <class T>
+  T fibre_stress(const T& stretch, const T& /*rate*/, double /*time*/) const {
+    using std::expm1;
+    if (stretch <= 1.0) return 0.0;
+    if (stretch < lambda_straight) return c3 * expm1(c4 * (stretch - 1.0));
+    return c5 * stretch + c6();
+  }
+  double energy(double stretch) const {
+    if (stretch <= 1) return 0;
+    const double crimped = std::min(stretch, lambda_straight);
+    const double exponential = std::exp(-c4) * (std::expint(c4 * crimped) - std::expint(c4));
+    const double straight = c5 * (stretch - crimped) + c6() * std::log(stretch / crimped);
+    return c3 * (exponential - std::log(crimped)) + straight;
+  }
+
+ private:
+  double c6() const { return c3 * std::expm1(c4 * (lambda_straight - 1)) - c5 * lambda_straight; }
+};
+TITIN_LAW(WeissFibre)
+
+}  // namespace titin
