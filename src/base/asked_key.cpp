@@ -36,7 +36,8 @@ Numbers bare_number(const AskedKey& asked, const toml::node& node) {
   const double x = node.value<double>().value_or(0);
   const std::string unit(asked.key.unit);
   if (!std::isfinite(x))
-    asked.complain(fmt::format("{} is not a finite number", shown(node)), "write a number");
+    asked.complain(fmt::format("{} is not a finite number", shown(node)),
+                   fmt::format("write {}, such as {}", units::noun(unit), sample("number", asked.key, {})));
   else if (!unit.empty())
     asked.complain(fmt::format("{} has no unit", shown(node)),
                    fmt::format("write {} with its unit, such as \"{}\"", units::noun(unit), units::example(unit)));

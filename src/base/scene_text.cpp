@@ -170,10 +170,18 @@ bool SceneText::from_command_line(const std::string& path) const {
 }
 
 Place SceneText::place(const std::string& table, std::string_view name) const {
-  if (from_command_line(name.empty() ? table : join_path(table, name))) return {true, 0, 0};
-  if (const toml::node* node = find(table, name)) return place_of(node->source());
-  const auto it = tables.find(table);
-  return it == tables.end() || table.empty() ? Place{} : place_of(it->second->source());
+  std::string path = name.empty() ? table : join_path(table, name);
+  if (from_command_line(path)) return {true, 0, 0};
+  const toml::node* node = name.empty() ? nullptr : find(table, name);
+  if (const auto it = tables.find(table); !node && it != tables.end() && !table.empty()) {
+    node = it->second;
+    path = table;
+  }
+  if (!node) return {};
+  const Place place = place_of(node->source());
+  const auto is_inside = [&](const std::string& set) { return is_below(set, path); };
+  const bool made_by_override = place.line == 0 && std::any_of(overridden.begin(), overridden.end(), is_inside);
+  return {made_by_override, place.line, place.column};
 }
 
 void SceneText::complain(const std::string& table, std::string_view name, const std::string& problem,

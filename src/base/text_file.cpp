@@ -62,7 +62,8 @@ std::optional<double> number(std::string_view word) {
 
 /// Adds one line; says what is wrong with it.
 std::string add_line(const std::vector<std::string_view>& columns, Columns& table, int& last_line, int line) {
-  if (columns.size() != 2) return fmt::format("has {} columns, not two (time, value)", columns.size());
+  if (columns.size() != 2)
+    return fmt::format("has {} column{}, not two (time, value)", columns.size(), columns.size() == 1 ? "" : "s");
   double x[2];
   for (int i = 0; i < 2; ++i) {
     const auto value = number(columns[i]);
@@ -101,7 +102,7 @@ Columns parse_columns(const std::string& text) {
     may_be_names = false;
     if (names) continue;
     const std::string problem = add_line(columns, table, last_line, line);
-    if (!problem.empty()) return {{}, {}, fmt::format("line {} {}", line, problem)};
+    if (!problem.empty()) return {{}, {}, fmt::format("line {}: {}", line, problem)};
   }
   if (table.time.empty()) table.problem = "holds no numbers";
   return table;

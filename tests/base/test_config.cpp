@@ -146,7 +146,7 @@ TEST(Config, ReportsAllErrorsInTheOrderOfTheFile) {
           "block.toml:4:8: time.cuts: 99 is out of range; allowed: 0 to 20",
           "block.toml:6:8: mesh.size: has 2 numbers; give 3",
           "block.toml:7:9: mesh.cells: entry 3 (0) is out of range; allowed: >= 1",
-          "block.toml:9:7: more.fat: nan is not a finite number; write a number",
+          "block.toml:9:7: more.fat: nan is not a finite number; write a pure number, such as 0.3",
           "block.toml:10:10: more.fields: 1 is neither true nor false; write true or false",
       }));
 }
@@ -211,6 +211,9 @@ TEST(Config, BlamesTheCommandLine) {
                       "command line: \"=3\": is no key=value; write for example time.step=\"25 ms\"",
                       "command line: \"a..b=1\": is no key=value; write for example time.step=\"25 ms\"",
                       "command line: \"time.end=\": has no value; write key=value"}));
+  EXPECT_EQ(errors("", {"time.step=1 s"}),
+            Messages{"command line: time.end: missing (end of the simulated time); add for example end = \"25 ms\" to "
+                     "[time]"});
   EXPECT_EQ(errors(time_table, {"time.end.x=3"}),
             Messages{"command line: \"time.end.x=3\": time.end is not a table; override it as a whole"});
   const auto broken = errors(time_table, {"activation={time"});
@@ -385,7 +388,7 @@ TEST_F(Files, ThatAreWrongAreNamedWithTheirLine) {
   } catch (const InputError& error) {
     EXPECT_EQ(
         error.messages(),
-        Messages{scene + ":1:22: activation.file: file \"strain.dat\": line 3 time 1 s does not come after 1 s of "
+        Messages{scene + ":1:22: activation.file: file \"strain.dat\": line 3: time 1 s does not come after 1 s of "
                          "line 2; write two columns: time in s, increasing, and value"});
   }
 }

@@ -29,12 +29,12 @@ TEST(Columns, AreReadWithNamesCommentsAndEitherSeparator) {
 TEST(Columns, NameTheLineThatIsWrong) {
   EXPECT_EQ(parse_columns("").problem, "holds no numbers");
   EXPECT_EQ(parse_columns("t s\n# nothing\n").problem, "holds no numbers");
-  EXPECT_EQ(parse_columns("0 1 2\n").problem, "line 1 has 3 columns, not two (time, value)");
-  EXPECT_EQ(parse_columns("0 1\n\n0.5\n").problem, "line 3 has 1 columns, not two (time, value)");
-  EXPECT_EQ(parse_columns("0 1\nt s\n").problem, "line 2 \"t\" is not a finite number");
-  EXPECT_EQ(parse_columns("0 1\n1 nan\n").problem, "line 2 \"nan\" is not a finite number");
-  EXPECT_EQ(parse_columns("0 1\n1 2x\n").problem, "line 2 \"2x\" is not a finite number");
-  EXPECT_EQ(parse_columns("0 1\n0.3 1\n#\n0.1 2\n").problem, "line 4 time 0.1 s does not come after 0.3 s of line 2");
+  EXPECT_EQ(parse_columns("0 1 2\n").problem, "line 1: has 3 columns, not two (time, value)");
+  EXPECT_EQ(parse_columns("0 1\n\n0.5\n").problem, "line 3: has 1 column, not two (time, value)");
+  EXPECT_EQ(parse_columns("0 1\nt s\n").problem, "line 2: \"t\" is not a finite number");
+  EXPECT_EQ(parse_columns("0 1\n1 nan\n").problem, "line 2: \"nan\" is not a finite number");
+  EXPECT_EQ(parse_columns("0 1\n1 2x\n").problem, "line 2: \"2x\" is not a finite number");
+  EXPECT_EQ(parse_columns("0 1\n0.3 1\n#\n0.1 2\n").problem, "line 4: time 0.1 s does not come after 0.3 s of line 2");
 }
 
 }  // namespace
