@@ -63,8 +63,8 @@ void CellTables::set_cell(mfem::ElementTransformation& map, double size, Cell& c
   set_modes(centre, X, size, cell);
 }
 
-/// Pressure modes are monomials in physical reference coordinates, centred and scaled: mapped ones lose an order on cells
-/// that are no parallelepipeds (Boffi, Gastaldi 2002).
+/// Pressure modes are monomials in physical reference coordinates, centred and scaled: mapped ones lose an order on
+/// cells that are no parallelepipeds (Boffi, Gastaldi 2002).
 void CellTables::set_modes(const mfem::Vector& centre, const mfem::DenseMatrix& X, double size, Cell& cell) const {
   const auto exponents = monomials(order_ - 1);
   cell.mode.resize(points_ * modes_);

@@ -16,12 +16,12 @@ class CellTables {
   int nodes() const { return nodes_; }
   int padded() const { return padded_; }  ///< nodes, rounded up to a multiple of 8
   int points() const { return points_; }
-  int modes() const { return modes_; }    ///< polynomials of degree <= k-1: pressure and dilatation
+  int modes() const { return modes_; }  ///< polynomials of degree <= k-1: pressure and dilatation
   const mfem::IntegrationRule& rule() const { return *rule_; }
 
-  const double* shape(int q) const { return &shape_[q * padded_]; }                  ///< N_a [padded]
-  double weight(int cell, int q) const { return cells_[cell].weight[q]; }            ///< [m^3]
-  const double* mode(int cell, int q) const { return &cells_[cell].mode[q * modes_]; }  ///< psi_l [modes]
+  const double* shape(int q) const { return &shape_[q * padded_]; }                             ///< N_a [padded]
+  double weight(int cell, int q) const { return cells_[cell].weight[q]; }                       ///< [m^3]
+  const double* mode(int cell, int q) const { return &cells_[cell].mode[q * modes_]; }          ///< psi_l [modes]
   const double* mode_mass_inverse(int cell) const { return cells_[cell].mass_inverse.data(); }  ///< (int psi psi^T)^-1
   /// Gradients of all shape functions in the reference configuration: G[q][J][a], padded [1/m].
   void gradients(int cell, double* G) const;

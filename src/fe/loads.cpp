@@ -31,11 +31,13 @@ void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
     const char* component[] = {"x", "y", "z"};
     d.read(component[i], displacement[i], {.unit = "m", .doc = "displacement, constant or in time"});
     prescribed[i] = clamp || d.has(component[i]);
-    if (clamp && d.has(component[i])) d.error(component[i], "a clamped boundary cannot be displaced", "drop clamp = true");
+    if (clamp && d.has(component[i]))
+      d.error(component[i], "a clamped boundary cannot be displaced", "drop clamp = true");
   }
   s.read("traction", traction, {.unit = "Pa", .doc = "dead traction: force per undeformed area, fixed direction"});
   s.read("traction_scale", traction_scale, {.doc = "factor of the traction, constant or in time"});
-  s.read("pressure", pressure, {.unit = "Pa", .doc = "follower pressure on the deformed surface, positive when it pushes"});
+  s.read("pressure", pressure,
+         {.unit = "Pa", .doc = "follower pressure on the deformed surface, positive when it pushes"});
 }
 
 Constraints::Constraints(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh,

@@ -21,7 +21,7 @@ struct BoundaryConfig {
   std::array<Table, 3> displacement;  // [m]
   std::array<double, 3> traction{};   // dead [Pa], force per reference area
   Table traction_scale{1};
-  Table pressure;                     // follower [Pa], pushes against the outward normal of the deformed surface
+  Table pressure;  // follower [Pa], pushes against the outward normal of the deformed surface
   bool constrained() const { return clamp || prescribed[0] || prescribed[1] || prescribed[2]; }
   bool loaded() const;
   void bind(Section& s, const NamedMesh& mesh);
@@ -32,9 +32,9 @@ class Constraints {
  public:
   Constraints(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, mfem::ParFiniteElementSpace& space);
 
-  const mfem::Array<int>& dofs() const { return dofs_; }        ///< true dofs, this rank, increasing
+  const mfem::Array<int>& dofs() const { return dofs_; }  ///< true dofs, this rank, increasing
   bool is_constrained_local(int local_dof) const { return local_marker_[local_dof] != 0; }
-  void set_values(double time, mfem::Vector& u) const;          ///< u_i = g_i(t) at dofs()
+  void set_values(double time, mfem::Vector& u) const;  ///< u_i = g_i(t) at dofs()
   /// True dofs of all three components on a boundary: [component] -> dofs; its reaction is the sum of their residuals.
   const std::array<mfem::Array<int>, 3>& boundary_dofs(int boundary) const { return boundary_dofs_[boundary]; }
 
@@ -58,7 +58,7 @@ class FaceLoads {
 
  private:
   struct Point {
-    std::vector<double> N, G;  // shapes [nodes], reference gradients [J][nodes]
+    std::vector<double> N, G;      // shapes [nodes], reference gradients [J][nodes]
     std::array<double, 3> normal;  // outward, times reference area [m^2]
   };
   struct Face {

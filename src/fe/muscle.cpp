@@ -42,8 +42,8 @@ Step Muscle::advance(double dt) {
   return step;
 }
 
-/// First guess of the step: the motion goes on, as far as the prescribed values do, which are then met by one linear solve.
-/// If that turns a cell inside out, the same from rest.
+/// First guess of the step: the motion goes on, as far as the prescribed values do, which are then met by one linear
+/// solve. If that turns a cell inside out, the same from rest.
 std::string Muscle::predict(Step& step) {
   const double part = continued_part(step);
   mfem::Vector moved = u_;

@@ -12,15 +12,18 @@ constexpr int max_points = 8;
 void bind_formulation(Section s, MuscleConfig& c) {
   s.choose("inertia", c.inertia, {{"dynamic", Inertia::dynamic}, {"quasi-static", Inertia::quasi_static}},
            {.doc = "quasi-static: no inertia, and the rate of the fibres is taken as zero"});
-  s.read("order", c.order, {.range = {.min = 1, .max = max_order},
-                            .doc = "k of Q_k displacement with P_(k-1) discontinuous pressure and dilatation"});
-  s.read("quadrature", c.quadrature, {.range = {.min = 0, .max = max_points},
-                                      .doc = "Gauss points per direction; 0 takes order + 1"});
+  s.read("order", c.order,
+         {.range = {.min = 1, .max = max_order},
+          .doc = "k of Q_k displacement with P_(k-1) discontinuous pressure and dilatation"});
+  s.read("quadrature", c.quadrature,
+         {.range = {.min = 0, .max = max_points}, .doc = "Gauss points per direction; 0 takes order + 1"});
   s.choose("fibre_rate", c.fibre_rate,
            {{"stretch_difference", FibreRate::stretch_difference}, {"velocity_gradient", FibreRate::velocity_gradient}},
-           {.doc = "rate of the fibre's stretch in a step: from its two ends (symmetric tangent), or from the velocity gradient"});
+           {.doc = "rate of the fibre's stretch in a step: from its two ends (symmetric tangent), or from the velocity "
+                   "gradient"});
   s.read("pennation_axis", c.pennation_axis, {.doc = "direction that pennation angles are measured from"});
-  if (!(norm(c.pennation_axis) > 0)) s.error("pennation_axis", "a direction of length zero", "give the line of action, e.g. [1, 0, 0]");
+  if (!(norm(c.pennation_axis) > 0))
+    s.error("pennation_axis", "a direction of length zero", "give the line of action, e.g. [1, 0, 0]");
 }
 
 }  // namespace

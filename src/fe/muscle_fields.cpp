@@ -65,7 +65,8 @@ void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v, const mf
 
 void MuscleFields::update_points(int cell, const Material& material, const ThreeField& kernel) {
   const PointInput in = kernel.points(system_.point_input());
-  std::vector<double> stretch(in.n), rate(in.n), activation(in.n), direction(3 * in.n), stress(tensor_components * in.n);
+  std::vector<double> stretch(in.n), rate(in.n), activation(in.n), direction(3 * in.n),
+      stress(tensor_components * in.n);
   std::vector<Mat3> P(in.n);
   material.fibre_state(in, stretch.data(), rate.data(), activation.data());
   material.stress(in, P.data(), nullptr);
@@ -89,7 +90,8 @@ void MuscleFields::update_points(int cell, const Material& material, const Three
   project(cell, stress, tensor_components, *stress_);
 }
 
-void MuscleFields::project(int cell, const std::vector<double>& at_points, int components, mfem::ParGridFunction& field) {
+void MuscleFields::project(int cell, const std::vector<double>& at_points, int components,
+                           mfem::ParGridFunction& field) {
   mfem::Array<int> dofs;
   field.ParFESpace()->GetElementVDofs(cell, dofs);  // component first
   const int n = projection_.Height();

@@ -1,4 +1,5 @@
-/// Fields of a muscle run for ParaView: nodal ones as they are, those of quadrature points by a projection in each cell.
+/// Fields of a muscle run for ParaView: nodal ones as they are, those of quadrature points by a projection in each
+/// cell.
 #pragma once
 
 #include <memory>
@@ -30,8 +31,8 @@ class MuscleFields {
   mfem::DenseMatrix projection_;  // cell dofs x points: least squares in the reference cell
   std::vector<std::unique_ptr<mfem::ParGridFunction>> storage_;
   std::vector<Field> fields_;
-  mfem::ParGridFunction *displacement_, *velocity_, *pressure_, *dilatation_, *stretch_, *rate_, *activation_, *direction_,
-      *stress_;
+  mfem::ParGridFunction *displacement_, *velocity_, *pressure_, *dilatation_, *stretch_, *rate_, *activation_,
+      *direction_, *stress_;
 };
 
 }  // namespace titin

@@ -81,8 +81,8 @@ void MuscleHistory::find_markers() {
     const bool mine = cells[m] >= 0;
     const bool found = any_of(mine);
     if (!found)
-      throw InputError({fmt::format("markers.{}: the point ({:g}, {:g}, {:g}) m is not in the mesh; move it inside", config[m].name,
-                                    points(0, m), points(1, m), points(2, m))});
+      throw InputError({fmt::format("markers.{}: the point ({:g}, {:g}, {:g}) m is not in the mesh; move it inside",
+                                    config[m].name, points(0, m), points(1, m), points(2, m))});
     Marker marker{config[m].name, -1, {}};
     // FindPoints gives a point on a shared face to the lowest rank only, and its element id there
     if (mine && cells[m] < space.GetNE()) {
@@ -147,7 +147,8 @@ void MuscleHistory::add_terms(int cell, const Material& material, const ThreeFie
     for (int q = 0; q < in.n; ++q) {
       const double w = system_.tables().weight(cell, q);
       if (account.stored) account.value += w * W[q];
-      for (int i = 0; i < 9 && !account.stored; ++i) account.value += w * P[q][i] * (kernel.F()[q][i] - kernel.F_old()[q][i]);
+      for (int i = 0; i < 9 && !account.stored; ++i)
+        account.value += w * P[q][i] * (kernel.F()[q][i] - kernel.F_old()[q][i]);
     }
   }
 }
@@ -181,7 +182,8 @@ void MuscleHistory::add_boundary_work(const mfem::Vector& u, const mfem::Vector&
 Quantity MuscleHistory::reaction(int boundary, int component) const {
   double force = 0;
   for (int dof : system_.constraints().boundary_dofs(boundary)[component]) force += forces_(dof);
-  return {fmt::format("reaction_{}_{}", system_.config().boundaries[boundary].name, component_name[component]), "N", sum(force)};
+  return {fmt::format("reaction_{}_{}", system_.config().boundaries[boundary].name, component_name[component]), "N",
+          sum(force)};
 }
 
 std::vector<Quantity> MuscleHistory::quantities() const {
@@ -201,8 +203,9 @@ std::vector<Quantity> MuscleHistory::quantities() const {
   const double boundary = sum(work_boundary_), body = sum(work_body_);
   list.push_back({"work_boundary", "J", boundary});
   list.push_back({"work_body", "J", body});
-  list.push_back({"energy_balance_error", "J",
-                  boundary + body - done - (kinetic - sum(std::max(kinetic_at_start_, 0.0))) - (stored - sum(stored_at_start_))});
+  list.push_back(
+      {"energy_balance_error", "J",
+       boundary + body - done - (kinetic - sum(std::max(kinetic_at_start_, 0.0))) - (stored - sum(stored_at_start_))});
   list.push_back({"volume", "m^3", sum(volume_)});
   for (const auto& mean : means_) {
     const double volume = sum(mean.volume), over = volume > 0 ? 1 / volume : 0;
@@ -215,7 +218,8 @@ std::vector<Quantity> MuscleHistory::quantities() const {
   for (const auto& marker : markers_)
     for (int i = 0; i < 3; ++i) {
       double value = 0;
-      for (int a = 0; a < nodes && marker.cell >= 0; ++a) value += marker.shape(a) * u_cells[(3 * marker.cell + i) * nodes + a];
+      for (int a = 0; a < nodes && marker.cell >= 0; ++a)
+        value += marker.shape(a) * u_cells[(3 * marker.cell + i) * nodes + a];
       list.push_back({fmt::format("marker_{}_u{}", marker.name, component_name[i]), "m", sum(value)});
     }
   return list;

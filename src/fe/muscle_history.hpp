@@ -5,8 +5,8 @@
 ///
 ///   work of boundary and body forces = sum over terms of int P_term : dF dV + int rho a . du dV,
 ///
-/// and what the stored and kinetic energies fall short of it is the dissipation of the backward Euler scheme: the balance
-/// error, of first order in dt.
+/// and what the stored and kinetic energies fall short of it is the dissipation of the backward Euler scheme: the
+/// balance error, of first order in dt.
 #pragma once
 
 #include <string>

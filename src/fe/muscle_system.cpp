@@ -56,7 +56,8 @@ void MuscleSystem::create_matrix() {
   for (int cell = 0; cell < space_.GetNE(); ++cell) {
     for (int c = 0; c < n; ++c) {
       const int dof = cell_dofs_[cell * n + c];
-      index[c] = constraints_.is_constrained_local(dof) ? leave_out : static_cast<PetscInt>(space_.GetGlobalTDofNumber(dof));
+      index[c] =
+          constraints_.is_constrained_local(dof) ? leave_out : static_cast<PetscInt>(space_.GetGlobalTDofNumber(dof));
     }
     for (int c = 0; c < n; ++c)
       for (int d = 0; d < n; ++d) {
@@ -76,12 +77,14 @@ void MuscleSystem::create_matrix() {
   check(MatSetBlockSize(K_, 3));
   check(MatSetPreallocationCOO(K_, entries, rows.data(), columns.data()));
   bool symmetric = !loads_.has_follower();
-  for (const auto& [name, material] : config_.materials) symmetric = symmetric && material->symmetric_tangent(config_.rate());
+  for (const auto& [name, material] : config_.materials)
+    symmetric = symmetric && material->symmetric_tangent(config_.rate());
   check(MatSetOption(K_, MAT_SYMMETRIC, symmetric ? PETSC_TRUE : PETSC_FALSE));
   check(MatSetOption(K_, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
 }
 
-MuscleSystem::LocalVectors::LocalVectors(MuscleSystem& system, const mfem::Vector& u_true, const mfem::Vector& u_old_true)
+MuscleSystem::LocalVectors::LocalVectors(MuscleSystem& system, const mfem::Vector& u_true,
+                                         const mfem::Vector& u_old_true)
     : u(system.space_.GetVSize()), u_old(system.space_.GetVSize()) {
   system.space_.GetProlongationMatrix()->Mult(u_true, u);
   system.space_.GetProlongationMatrix()->Mult(u_old_true, u_old);
@@ -119,56 +122,67 @@ mfem::Vector MuscleSystem::to_true(const mfem::Vector& local) const {
   return summed;
 }
 
+/// Local-dof vectors of a residual, kept apart for the accounts of work.
+struct MuscleSystem::LocalForces {
+  explicit LocalForces(int size) : internal(size), inertia(size), body(size), load(size), absolute(size) {
+    for (auto* v : {&internal, &inertia, &body, &load, &absolute}) *v = 0.0;
+  }
+  mfem::Vector internal, inertia, body, load, absolute;
+};
+
 bool MuscleSystem::residual(const mfem::Vector& u, mfem::Vector& R) {
   Timers::Scope timer("residual");
-  const int n = 3 * tables_.nodes();
-  mfem::Vector a_true(size()), a(space_.GetVSize()), internal(space_.GetVSize()), inertia(space_.GetVSize()),
-      body(space_.GetVSize()), load(space_.GetVSize()), absolute(space_.GetVSize());
-  const bool moving = config_.inertia == Inertia::dynamic && step_.dt > 0;
+  mfem::Vector a_true(size()), a(space_.GetVSize());
   for (int i = 0; i < size(); ++i)
-    a_true(i) = moving ? ((u(i) - step_.u_old(i)) / step_.dt - step_.v_old(i)) / step_.dt : 0.0;
+    a_true(i) = moving() ? ((u(i) - step_.u_old(i)) / step_.dt - step_.v_old(i)) / step_.dt : 0.0;
   space_.GetProlongationMatrix()->Mult(a_true, a);
-  for (auto* v : {&internal, &inertia, &body, &load, &absolute}) *v = 0.0;
   const LocalVectors local(*this, u, step_.u_old);
-  std::vector<double> r(n), r_inertia(n), r_body(n), r_load(n);
+  LocalForces local_forces(space_.GetVSize());
   int bad_cell = -1;
-  for (int cell = 0; cell < space_.GetNE() && bad_cell < 0; ++cell) {
-    gather(cell, local);
-    if (!kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data())) bad_cell = cell;
-    if (bad_cell >= 0) break;
-    for (auto* v : {&r, &r_inertia, &r_body, &r_load}) std::fill(v->begin(), v->end(), 0.0);
-    kernel_.add_forces(cell, material(cell), point_input(), r.data());
-    loads_.add(cell, step_.time, u_cell_.data(), r_load.data(), nullptr);
-    add_inertia_and_body(cell, a, r_inertia.data(), r_body.data());
-    for (int c = 0; c < n; ++c) {
-      const int dof = cell_dofs_[cell * n + c];
-      internal(dof) += r[c];
-      inertia(dof) += r_inertia[c];
-      body(dof) += r_body[c];
-      load(dof) -= r_load[c];
-      absolute(dof) += std::abs(r[c]) + std::abs(r_inertia[c]) + std::abs(r_body[c]) + std::abs(r_load[c]);
-    }
-  }
+  for (int cell = 0; cell < space_.GetNE() && bad_cell < 0; ++cell)
+    if (!add_cell_forces(cell, local, a, local_forces)) bad_cell = cell;
   if (any_of(bad_cell >= 0)) {
     set_domain_error(bad_cell, bad_cell >= 0 ? kernel_.bad_point() : -1);
     R = 0.0;
     return false;
   }
-  body_forces_ = to_true(body);
-  load_forces_ = to_true(load);
-  forces_ = to_true(internal);
-  forces_ += to_true(inertia);
+  body_forces_ = to_true(local_forces.body);
+  load_forces_ = to_true(local_forces.load);
+  forces_ = to_true(local_forces.internal);
+  forces_ += to_true(local_forces.inertia);
   forces_ -= body_forces_;
   forces_ -= load_forces_;
-  const mfem::Vector total = to_true(absolute);
+  const mfem::Vector total = to_true(local_forces.absolute);
   force_scale_ = std::max(std::sqrt(sum(total * total)), force_floor_);
   R = forces_;
   for (int dof : constraints_.dofs()) R(dof) = 0;
   return true;
 }
 
+/// Returns false when the cell is inside out.
+bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mfem::Vector& acceleration,
+                                   LocalForces& forces) {
+  gather(cell, local);
+  if (!kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data())) return false;
+  const int n = 3 * tables_.nodes();
+  std::vector<double> internal(n), inertia(n), body(n), load(n);
+  kernel_.add_forces(cell, material(cell), point_input(), internal.data());
+  loads_.add(cell, step_.time, u_cell_.data(), load.data(), nullptr);
+  add_inertia_and_body(cell, acceleration, inertia.data(), body.data());
+  for (int c = 0; c < n; ++c) {
+    const int dof = cell_dofs_[cell * n + c];
+    forces.internal(dof) += internal[c];
+    forces.inertia(dof) += inertia[c];
+    forces.body(dof) += body[c];
+    forces.load(dof) -= load[c];  // loads come as residuals, minus a force
+    forces.absolute(dof) += std::abs(internal[c]) + std::abs(inertia[c]) + std::abs(body[c]) + std::abs(load[c]);
+  }
+  return true;
+}
+
 /// Nodal forces of density * acceleration, and of density * body acceleration.
-void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& acceleration, double* inertia, double* body) const {
+void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& acceleration, double* inertia,
+                                        double* body) const {
   const int nodes = tables_.nodes();
   std::vector<double> a(3 * nodes);
   gather(cell, acceleration, a.data());
@@ -190,7 +204,7 @@ void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& accelerati
 
 void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* lift, mfem::Vector* R) {
   Timers::Scope timer("tangent");
-  const int nodes = tables_.nodes(), n = 3 * nodes;
+  const int n = 3 * tables_.nodes();
   const LocalVectors local(*this, u, step_.u_old);
   mfem::Vector local_lift, local_R;
   if (lift) {
@@ -199,9 +213,8 @@ void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* li
     space_.GetProlongationMatrix()->Mult(*lift, local_lift);
     local_R = 0.0;
   }
-  const bool moving = config_.inertia == Inertia::dynamic && step_.dt > 0;
   double stiffest = 0;
-  std::vector<double> mass(nodes * nodes), unused(n);
+  std::vector<double> unused(n);
   for (int cell = 0; cell < space_.GetNE(); ++cell) {
     double* block = &values_[std::size_t(cell) * n * n];
     std::fill_n(block, n * n, 0.0);
@@ -210,14 +223,8 @@ void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* li
     kernel_.add_tangent(cell, material(cell), point_input(), block);
     for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(block[c * n + c]));
     if (loads_.on_cell(cell)) loads_.add(cell, step_.time, u_cell_.data(), unused.data(), block);
-    if (moving) {
-      std::fill(mass.begin(), mass.end(), 0.0);
-      kernel_.add_mass(cell, material(cell).density() / (step_.dt * step_.dt), mass.data());
-      for (int i = 0; i < 3; ++i)
-        for (int a = 0; a < nodes; ++a)
-          for (int b = 0; b < nodes; ++b) block[(i * nodes + a) * n + i * nodes + b] += mass[a * nodes + b];
-    }
-    if (lift) constrain(cell, block, &local_lift, &local_R);
+    if (moving()) add_inertia_tangent(cell, block);
+    if (lift) add_lift(cell, block, &local_lift, &local_R);
   }
   if (lift) {
     mfem::Vector change = to_true(local_R);
@@ -232,7 +239,18 @@ void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* li
   check(MatSetValuesCOO(K, values_.data(), INSERT_VALUES));
 }
 
-void MuscleSystem::constrain(int cell, double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const {
+/// Mass / dt^2: the derivative of backward Euler's inertia.
+void MuscleSystem::add_inertia_tangent(int cell, double* K) const {
+  const int nodes = tables_.nodes(), n = 3 * nodes;
+  std::vector<double> mass(nodes * nodes);
+  kernel_.add_mass(cell, material(cell).density() / (step_.dt * step_.dt), mass.data());
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < nodes; ++a)
+      for (int b = 0; b < nodes; ++b) K[(i * nodes + a) * n + i * nodes + b] += mass[a * nodes + b];
+}
+
+/// What a change of the cell's constrained values does to its forces.
+void MuscleSystem::add_lift(int cell, const double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const {
   const int n = 3 * tables_.nodes();
   const int* dofs = &cell_dofs_[cell * n];
   for (int d = 0; d < n; ++d) {
@@ -254,8 +272,9 @@ void MuscleSystem::set_domain_error(int cell, int point) {
     x.assign(position.begin(), position.end());
   }
   sum(x);
-  domain_error_ = fmt::format("a cell turns inside out (volume ratio not positive) near undeformed ({:.4g}, {:.4g}, {:.4g}) m",
-                              x[0], x[1], x[2]);
+  domain_error_ =
+      fmt::format("a cell turns inside out (volume ratio not positive) near undeformed ({:.4g}, {:.4g}, {:.4g}) m",
+                  x[0], x[1], x[2]);
 }
 
 }  // namespace titin

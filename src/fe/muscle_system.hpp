@@ -19,8 +19,8 @@ namespace titin {
 
 /// One time step's data. True-dof vectors.
 struct StepState {
-  double time = 0, dt = 0;       ///< end of the step and its length [s]
-  mfem::Vector u_old, v_old;     ///< [m], [m/s] at its beginning
+  double time = 0, dt = 0;    ///< end of the step and its length [s]
+  mfem::Vector u_old, v_old;  ///< [m], [m/s] at its beginning
 };
 
 class MuscleSystem : public NonlinearSystem {
@@ -35,8 +35,11 @@ class MuscleSystem : public NonlinearSystem {
   double force_scale() const override { return force_scale_; }
   std::string domain_error() const override { return domain_error_; }
 
-  /// Tangent at u, and R += K_free,constrained * lift: what a change `lift` of the prescribed values does to the free residuals.
-  void tangent_with_lift(const mfem::Vector& u, Mat K, const mfem::Vector& lift, mfem::Vector& R) { assemble(u, K, &lift, &R); }
+  /// Tangent at u, and R += K_free,constrained * lift: what a change `lift` of the prescribed values does to the free
+  /// residuals.
+  void tangent_with_lift(const mfem::Vector& u, Mat K, const mfem::Vector& lift, mfem::Vector& R) {
+    assemble(u, K, &lift, &R);
+  }
 
   Mat matrix() const { return K_; }  ///< preallocated; symmetric if it says so
   StepState& step() { return step_; }
@@ -69,12 +72,16 @@ class MuscleSystem : public NonlinearSystem {
     LocalVectors(MuscleSystem& system, const mfem::Vector& u, const mfem::Vector& u_old);
     mfem::Vector u, u_old;
   };
+  struct LocalForces;
+  bool moving() const { return config_.inertia == Inertia::dynamic && step_.dt > 0; }
+  bool add_cell_forces(int cell, const LocalVectors& local, const mfem::Vector& acceleration, LocalForces& forces);
   void gather(int cell, const LocalVectors& local);
   void gather(int cell, const mfem::Vector& local, double* values) const;
   void assemble(const mfem::Vector& u, Mat K, const mfem::Vector* lift, mfem::Vector* R);
   void create_matrix();
   void add_inertia_and_body(int cell, const mfem::Vector& acceleration, double* inertia, double* body) const;
-  void constrain(int cell, double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const;
+  void add_inertia_tangent(int cell, double* K) const;
+  void add_lift(int cell, const double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const;
   void set_domain_error(int cell, int point);
   mfem::Vector to_true(const mfem::Vector& local) const;
 
@@ -88,7 +95,7 @@ class MuscleSystem : public NonlinearSystem {
   std::vector<int> cell_dofs_;              // [cell][3][nodes], local dofs
   StepState step_;
   Mat K_ = nullptr;
-  std::vector<double> values_;              // [cell][3 nodes][3 nodes], then one for each constrained dof
+  std::vector<double> values_;  // [cell][3 nodes][3 nodes], then one for each constrained dof
   std::vector<double> u_cell_, u_old_cell_;
   mfem::Vector forces_, body_forces_, load_forces_;
   double force_scale_ = 0, force_floor_ = 0;

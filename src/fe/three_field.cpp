@@ -6,7 +6,8 @@ namespace titin {
 
 namespace {
 
-typedef double Pack __attribute__((vector_size(64), aligned(8)));  // GCC and Clang split it where registers are narrower
+typedef double Pack
+    __attribute__((vector_size(64), aligned(8)));  // GCC and Clang split it where registers are narrower
 constexpr int pack = 8;
 constexpr int rows_at_once = 6;  // 6 rows x 4 packs of accumulators fit 32 registers for Q2
 
@@ -32,10 +33,14 @@ void outer_product_sum(int nodes, int terms, const double* G, const double* H, d
 
 void outer_product_sum(int nodes, int padded, int terms, const double* G, const double* H, double* C) {
   switch (padded / pack) {
-    case 1: return outer_product_sum<1>(nodes, terms, G, H, C);  // Q1
-    case 4: return outer_product_sum<4>(nodes, terms, G, H, C);  // Q2
-    case 8: return outer_product_sum<8>(nodes, terms, G, H, C);  // Q3
-    default: MFEM_ABORT("no kernel for this number of nodes");
+    case 1:
+      return outer_product_sum<1>(nodes, terms, G, H, C);  // Q1
+    case 4:
+      return outer_product_sum<4>(nodes, terms, G, H, C);  // Q2
+    case 8:
+      return outer_product_sum<8>(nodes, terms, G, H, C);  // Q3
+    default:
+      MFEM_ABORT("no kernel for this number of nodes");
   }
 }
 

@@ -2,8 +2,8 @@
 ///
 ///   W(u, p, D) = int W_iso(F) + U(D) + p (J - D) dV,   F = I + Grad u, J = det F          (Simo, Taylor, Pister 1985)
 ///
-/// p and D share one discontinuous space, so both are explicit functions of u in each cell, D = Pi J and p = Pi U'(D) with
-/// Pi the L2 projection onto that space. What is left is a residual and its exact tangent in u alone:
+/// p and D share one discontinuous space, so both are explicit functions of u in each cell, D = Pi J and p = Pi U'(D)
+/// with Pi the L2 projection onto that space. What is left is a residual and its exact tangent in u alone:
 ///
 ///   r = int (P_iso + p cof F) : Grad N dV
 ///   K = int Grad N : (A_iso + p d cof F / dF) : Grad N dV + B^T M^-1 [int U''(D) psi psi^T] M^-1 B,
@@ -22,7 +22,8 @@ class ThreeField {
  public:
   explicit ThreeField(const CellTables& tables);
 
-  /// Deformation of a cell: F, F_old, J, D, p at its points. Returns false where J or D is not positive; bad_point() says where.
+  /// Deformation of a cell: F, F_old, J, D, p at its points. Returns false where J or D is not positive; bad_point()
+  /// says where.
   bool deform(int cell, const Material& material, const double* u, const double* u_old);
   int bad_point() const { return bad_point_; }
 
@@ -51,10 +52,10 @@ class ThreeField {
 
   const CellTables& tables_;
   int bad_point_ = -1;
-  std::vector<double> G_;              // [q][J][a]
-  std::vector<double> H_;              // [q][J][b]: w A G
+  std::vector<double> G_;  // [q][J][a]
+  std::vector<double> H_;  // [q][J][b]: w A G
   std::vector<Mat3> F_, F_old_, cofactor_, P_;
-  std::vector<Mat9> A_;                // w (A_iso + p d cof F / dF)
+  std::vector<Mat9> A_;  // w (A_iso + p d cof F / dF)
   std::vector<Vec3> fibre_;
   std::vector<double> J_, D_, p_, dU_;
 };

@@ -29,7 +29,8 @@ GmshNames read_gmsh_names(const std::string& file) {
     return names;
   }
   if (version.rfind("2.2", 0) != 0) {
-    names.error = fmt::format("is a Gmsh mesh of format {}; only 2.2 is read (save it with Mesh.MshFileVersion = 2.2)", version);
+    names.error =
+        fmt::format("is a Gmsh mesh of format {}; only 2.2 is read (save it with Mesh.MshFileVersion = 2.2)", version);
     return names;
   }
   for (std::string line; std::getline(in, line);) {
@@ -96,11 +97,15 @@ std::string unsuitable(const mfem::Mesh& mesh) {
 }  // namespace
 
 void MeshConfig::bind(Section& s) {
-  s.read("box", box, {.unit = "m", .range = non_negative,
-                      .doc = "edge lengths of a box; boundaries x-, x+, y-, y+, z-, z+, region body"});
+  s.read("box", box,
+         {.unit = "m",
+          .range = non_negative,
+          .doc = "edge lengths of a box; boundaries x-, x+, y-, y+, z-, z+, region body"});
   s.read("cells", cells, {.range = {.min = 1, .max = 1e4}, .doc = "hexahedra of the box along x, y, z"});
-  s.read("file", file, {.doc = "Gmsh 2.2 mesh of hexahedra, in metres; its physical names name regions and boundaries"});
-  s.read("refine", refine, {.range = {.min = 0, .max = max_refinements}, .doc = "uniform refinements (each 8 times the cells)"});
+  s.read("file", file,
+         {.doc = "Gmsh 2.2 mesh of hexahedra, in metres; its physical names name regions and boundaries"});
+  s.read("refine", refine,
+         {.range = {.min = 0, .max = max_refinements}, .doc = "uniform refinements (each 8 times the cells)"});
 }
 
 NamedMesh NamedMesh::read(const MeshConfig& config, Section section) {
@@ -120,8 +125,9 @@ NamedMesh NamedMesh::read(const MeshConfig& config, Section section) {
 
   const double cells = 1.0 * config.cells[0] * config.cells[1] * config.cells[2] * std::pow(8.0, config.refine);
   if (has_box && (cells > max_cells || cells < ranks())) {
-    section.error("cells", fmt::format("{:.0f} cells for {} ranks", cells, ranks()),
-                  cells > max_cells ? "take fewer cells" : "every rank needs at least one cell: take more cells or fewer ranks");
+    section.error(
+        "cells", fmt::format("{:.0f} cells for {} ranks", cells, ranks()),
+        cells > max_cells ? "take fewer cells" : "every rank needs at least one cell: take more cells or fewer ranks");
     return named;
   }
   std::string error;

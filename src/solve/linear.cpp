@@ -7,12 +7,15 @@ namespace titin {
 namespace {
 
 constexpr int restart = 60;
-constexpr int max_iterations = 60;      // an old factorisation that needs more is worth nothing
-constexpr int mumps_extra_memory = 60;  // [%] of its own estimate, ICNTL(14): fill grows with pivoting on indefinite matrices
+constexpr int max_iterations = 60;  // an old factorisation that needs more is worth nothing
+constexpr int mumps_extra_memory =
+    60;  // [%] of its own estimate, ICNTL(14): fill grows with pivoting on indefinite matrices
 
 /// PETSc's view of a true-dof vector; no copy.
 struct View {
-  View(mfem::Vector& v) { check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 3, v.Size(), PETSC_DECIDE, v.GetData(), &vec)); }
+  View(mfem::Vector& v) {
+    check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 3, v.Size(), PETSC_DECIDE, v.GetData(), &vec));
+  }
   ~View() { VecDestroy(&vec); }
   Vec vec = nullptr;
 };
@@ -20,8 +23,9 @@ struct View {
 }  // namespace
 
 void LinearConfig::bind(Section& s) {
-  s.read("reuse_limit", reuse_limit, {.range = {.min = 0, .max = 50},
-                                      .doc = "a factorisation is used again while a solve takes at most this many iterations"});
+  s.read("reuse_limit", reuse_limit,
+         {.range = {.min = 0, .max = 50},
+          .doc = "a factorisation is used again while a solve takes at most this many iterations"});
   s.read("linear_tolerance", tolerance,
          {.range = {.min = 1e-14, .max = 1e-2}, .doc = "relative residual of a linear solve"});
 }
@@ -67,7 +71,8 @@ std::string LinearSolver::failure() const {
   KSPConvergedReason reason;
   check(KSPGetConvergedReason(ksp_, &reason));
   if (reason >= 0) return "";
-  if (reason == KSP_DIVERGED_PC_FAILED) return "the tangent could not be factorised (it is singular, or memory ran out)";
+  if (reason == KSP_DIVERGED_PC_FAILED)
+    return "the tangent could not be factorised (it is singular, or memory ran out)";
   if (reason == KSP_DIVERGED_NANORINF) return "the tangent holds numbers that are not finite";
   return "the linear solver did not converge";
 }

@@ -9,12 +9,12 @@ namespace titin {
 
 /// The outcome of one attempted time step. Failure is a value.
 struct Step {
-  double time = 0, dt = 0;  ///< [s] at the end of the step
-  int newton = 0;           ///< iterations
-  int krylov = 0;           ///< linear iterations
-  double residual = 0;      ///< last residual over its scale
+  double time = 0, dt = 0;        ///< [s] at the end of the step
+  int newton = 0;                 ///< iterations
+  int krylov = 0;                 ///< linear iterations
+  double residual = 0;            ///< last residual over its scale
   std::vector<double> residuals;  ///< the same of each iteration: shows the order of convergence
-  std::string failure;      ///< empty when it converged; else where and why, in words
+  std::string failure;            ///< empty when it converged; else where and why, in words
   bool ok() const { return failure.empty(); }
 };
 

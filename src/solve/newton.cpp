@@ -10,9 +10,9 @@ namespace titin {
 
 namespace {
 
-constexpr int max_backtracks = 8;          // smallest trial step: 2^-8 of Newton's
-constexpr double armijo = 1e-4;            // asked decrease of |R|, as usual (Nocedal, Wright 2006, section 3.1)
-constexpr double still = 1e-12;            // an increment below this part of u changes its round-off only: no more can be had
+constexpr int max_backtracks = 8;  // smallest trial step: 2^-8 of Newton's
+constexpr double armijo = 1e-4;    // asked decrease of |R|, as usual (Nocedal, Wright 2006, section 3.1)
+constexpr double still = 1e-12;    // an increment below this part of u changes its round-off only: no more can be had
 constexpr double smallest_cut = 0.1, largest_cut = 0.5;  // of a step length that failed
 
 /// MFEM's view of this rank's part of a PETSc vector; no copy.
@@ -43,8 +43,9 @@ void assign(const mfem::Vector& from, Vec to) {
 }  // namespace
 
 void NewtonConfig::bind(Section& s) {
-  s.read("tolerance", tolerance,
-         {.range = {.min = 1e-14, .max = 1e-1}, .doc = "residual force over the sum of the cells' absolute nodal forces"});
+  s.read(
+      "tolerance", tolerance,
+      {.range = {.min = 1e-14, .max = 1e-1}, .doc = "residual force over the sum of the cells' absolute nodal forces"});
   s.read("max_iterations", max_iterations, {.range = {.min = 1, .max = 1000}, .doc = "of Newton's method in a step"});
   linear.bind(s);
 }
@@ -122,13 +123,18 @@ PetscErrorCode Newton::test(SNES, PetscInt iteration, PetscReal u_norm, PetscRea
   self->result_.residual = scale > 0 ? norm / scale : norm;
   self->result_.residuals.push_back(self->result_.residual);
   *reason = SNES_CONVERGED_ITERATING;
-  if (std::isnan(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
-  else if (norm <= self->config_.tolerance * scale) *reason = SNES_CONVERGED_FNORM_RELATIVE;
-  else if (iteration > 0 && increment <= still * u_norm) *reason = SNES_CONVERGED_SNORM_RELATIVE;
+  if (std::isnan(norm))
+    *reason = SNES_DIVERGED_FNORM_NAN;
+  else if (norm <= self->config_.tolerance * scale)
+    *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  else if (iteration > 0 && increment <= still * u_norm)
+    *reason = SNES_CONVERGED_SNORM_RELATIVE;
   return 0;
 }
 
-PetscErrorCode Newton::search(SNESLineSearch line_search, void* self) { return static_cast<Newton*>(self)->backtrack(line_search); }
+PetscErrorCode Newton::search(SNESLineSearch line_search, void* self) {
+  return static_cast<Newton*>(self)->backtrack(line_search);
+}
 
 /// u <- u - s y with the first s in {1, ...} inside the domain of R that lowers |R|; else the best one seen.
 PetscErrorCode Newton::backtrack(SNESLineSearch line_search) {
@@ -148,7 +154,8 @@ PetscErrorCode Newton::backtrack(SNESLineSearch line_search) {
     if (norm < best_norm) best = s, best_norm = norm;
     if (norm <= (1 - armijo * s) * start) break;
     // minimum of the parabola through |R|^2 at 0 (with its Newton slope -2 |R|^2) and at s
-    const double curved = std::isfinite(norm) ? start * start * s / (norm * norm / s - start * start / s + 2 * start * start) : 0;
+    const double curved =
+        std::isfinite(norm) ? start * start * s / (norm * norm / s - start * start / s + 2 * start * start) : 0;
     s *= std::clamp(std::isfinite(norm) ? curved / s : 0.0, smallest_cut, largest_cut);
   }
   if (!std::isfinite(best_norm)) return SNESLineSearchSetReason(line_search, SNES_LINESEARCH_FAILED_DOMAIN);
@@ -164,14 +171,19 @@ PetscErrorCode Newton::backtrack(SNESLineSearch line_search) {
 
 std::string Newton::reason_in_words(SNESConvergedReason reason) const {
   switch (reason) {
-    case SNES_DIVERGED_FUNCTION_DOMAIN: return system_.domain_error();
-    case SNES_DIVERGED_LINE_SEARCH: return "no step along Newton's direction stays admissible: " + system_.domain_error();
-    case SNES_DIVERGED_LINEAR_SOLVE: return linear_->failure();
-    case SNES_DIVERGED_FNORM_NAN: return "the residual is not a finite number";
+    case SNES_DIVERGED_FUNCTION_DOMAIN:
+      return system_.domain_error();
+    case SNES_DIVERGED_LINE_SEARCH:
+      return "no step along Newton's direction stays admissible: " + system_.domain_error();
+    case SNES_DIVERGED_LINEAR_SOLVE:
+      return linear_->failure();
+    case SNES_DIVERGED_FNORM_NAN:
+      return "the residual is not a finite number";
     case SNES_DIVERGED_MAX_IT:
       return fmt::format("residual {:.1e} is above the tolerance {:.1e} after {} Newton iterations", result_.residual,
                          config_.tolerance, result_.iterations);
-    default: return fmt::format("Newton's method ended with SNES reason {}", static_cast<int>(reason));
+    default:
+      return fmt::format("Newton's method ended with SNES reason {}", static_cast<int>(reason));
   }
 }
 

@@ -1,8 +1,8 @@
 /// Newton's method by PETSc's SNES on a nonlinear system R(u) = 0, with a line search that knows the domain of R.
 #pragma once
 
-#include <mfem.hpp>
 #include <memory>
+#include <mfem.hpp>
 #include <string>
 #include <vector>
 

@@ -15,10 +15,11 @@ PetscSession::PetscSession() {
 
 PetscSession::~PetscSession() { PetscFinalize(); }
 
-PetscError::PetscError(PetscErrorCode code) : std::runtime_error([code] {
-      const char* text = nullptr;
-      PetscErrorMessage(code, &text, nullptr);
-      return fmt::format("PETSc error {}: {}", static_cast<int>(code), text ? text : "unknown");
-    }()) {}
+PetscError::PetscError(PetscErrorCode code)
+    : std::runtime_error([code] {
+        const char* text = nullptr;
+        PetscErrorMessage(code, &text, nullptr);
+        return fmt::format("PETSc error {}: {}", static_cast<int>(code), text ? text : "unknown");
+      }()) {}
 
 }  // namespace titin

@@ -82,7 +82,8 @@ inline std::vector<Step> march(Model& model, double end, double dt) {
 }
 
 /// True-dof vector of a displacement given as a function of the reference position.
-inline mfem::Vector interpolate(mfem::ParFiniteElementSpace& space, std::function<void(const mfem::Vector&, mfem::Vector&)> f) {
+inline mfem::Vector interpolate(mfem::ParFiniteElementSpace& space,
+                                std::function<void(const mfem::Vector&, mfem::Vector&)> f) {
   mfem::VectorFunctionCoefficient coefficient(3, std::move(f));
   mfem::ParGridFunction field(&space);
   field.ProjectCoefficient(coefficient);

@@ -11,8 +11,8 @@ namespace {
 
 using namespace test;
 
-constexpr double round_off = 1e-11;      // relative: sums of some thousand products in double precision
-constexpr double newton_accuracy = 1e-7; // relative: what solver.tolerance = 1e-10 leaves after a quadratic last step
+constexpr double round_off = 1e-11;       // relative: sums of some thousand products in double precision
+constexpr double newton_accuracy = 1e-7;  // relative: what solver.tolerance = 1e-10 leaves after a quadratic last step
 
 const std::string tight = "[solver]\ntolerance = 1e-10\n";
 
@@ -20,7 +20,8 @@ double norm_of(const mfem::Vector& v) { return std::sqrt(sum(v * v)); }
 
 TEST(PatchTest, AffineDisplacementLeavesInnerForcesZeroOnBentCells) {
   for (int order : {1, 2, 3}) {
-    const auto model = make_block("[muscle]\ninertia = \"quasi-static\"\norder = " + std::to_string(order) + "\n" + muscle_material, true);
+    const auto model = make_block(
+        "[muscle]\ninertia = \"quasi-static\"\norder = " + std::to_string(order) + "\n" + muscle_material, true);
     auto& space = model->system().space();
     const mfem::Vector u = interpolate(space, [](const mfem::Vector& x, mfem::Vector& u) {
       u(0) = 0.1 * x(0) + 0.05 * x(1);
@@ -54,7 +55,8 @@ TEST(RigidMotion, RotationLeavesNoStress) {
 }
 
 TEST(FreeFall, FollowsTheSchemeExactly) {
-  const auto model = make_block("[body]\nacceleration = \"0, 0, -9.81 m/s^2\"\n[markers]\np = \"7, 3, 2 mm\"\n" + tight + soft_material);
+  const auto model = make_block("[body]\nacceleration = \"0, 0, -9.81 m/s^2\"\n[markers]\np = \"7, 3, 2 mm\"\n" +
+                                tight + soft_material);
   const double dt = 1e-3;
   const int steps = 5;
   for (const Step& step : march(*model, steps * dt, dt)) ASSERT_TRUE(step.ok()) << step.failure;
@@ -77,7 +79,9 @@ displacement.z = "0 mm"
 )";
 
 TEST(Pressure, CompressesABlockByTheVolumetricLaw) {
-  const auto model = make_block(symmetry_planes + "[boundary.outside]\non = [\"x+\", \"y+\", \"z+\"]\npressure = \"100 kPa\"\n" + tight + soft_material);
+  const auto model =
+      make_block(symmetry_planes + "[boundary.outside]\non = [\"x+\", \"y+\", \"z+\"]\npressure = \"100 kPa\"\n" +
+                 tight + soft_material);
   const Step step = model->advance(1.0);
   ASSERT_TRUE(step.ok()) << step.failure;
   model->accept();
@@ -88,7 +92,9 @@ TEST(Pressure, CompressesABlockByTheVolumetricLaw) {
 }
 
 TEST(Traction, StretchesABlockByTheUniaxialSolution) {
-  const auto model = make_block(symmetry_planes + "[boundary.\"x+\"]\ntraction = \"60, 0, 0 kPa\"\n[markers]\nend = \"30, 10, 10 mm\"\n" + tight + soft_material);
+  const auto model = make_block(symmetry_planes +
+                                "[boundary.\"x+\"]\ntraction = \"60, 0, 0 kPa\"\n[markers]\nend = \"30, 10, 10 mm\"\n" +
+                                tight + soft_material);
   const Step step = model->advance(1.0);
   ASSERT_TRUE(step.ok()) << step.failure;
   model->accept();
@@ -103,9 +109,10 @@ TEST(Traction, StretchesABlockByTheUniaxialSolution) {
 }
 
 TEST(Work, OfTheBoundaryIsWhatTheBodyTakesUp) {
-  const std::string text = muscle_material + tight +
-                           "[boundary.\"x-\"]\nclamp = true\n[boundary.\"x+\"]\ndisplacement.x = { time = \"0, 0.05, 0.1 s\", "
-                           "value = \"0, 2, 1 mm\" }\ndisplacement.y = \"0 mm\"\ndisplacement.z = \"0 mm\"\n";
+  const std::string text =
+      muscle_material + tight +
+      "[boundary.\"x-\"]\nclamp = true\n[boundary.\"x+\"]\ndisplacement.x = { time = \"0, 0.05, 0.1 s\", "
+      "value = \"0, 2, 1 mm\" }\ndisplacement.y = \"0 mm\"\ndisplacement.z = \"0 mm\"\n";
   const auto model = make_block(text);
   double last_error = 0;
   for (int n = 0; n < 10; ++n) {
@@ -121,7 +128,9 @@ TEST(Work, OfTheBoundaryIsWhatTheBodyTakesUp) {
 }
 
 TEST(Newton, IsQuadraticAndNeedsFewIterations) {
-  const std::string text = muscle_material + "[solver]\ntolerance = 1e-12\nlinear_tolerance = 1e-12\n[boundary.\"x-\"]\nclamp = true\n[boundary.\"x+\"]\nclamp = true\n";
+  const std::string text = muscle_material +
+                           "[solver]\ntolerance = 1e-12\nlinear_tolerance = 1e-12\n[boundary.\"x-\"]\nclamp = "
+                           "true\n[boundary.\"x+\"]\nclamp = true\n";
   const auto model = make_block(text);
   const auto steps = march(*model, 0.1, 0.01);
   constexpr double quadratic = 1.8, asymptotic = 1e-2, measurable = 1e-11;
@@ -140,7 +149,9 @@ TEST(Newton, IsQuadraticAndNeedsFewIterations) {
 }
 
 TEST(Failure, IsAValueAndLeavesTheStateAsItWas) {
-  const std::string text = soft_material + "[boundary.\"x-\"]\nclamp = true\n[boundary.\"x+\"]\ndisplacement.x = { time = \"0, 1 s\", value = \"0, -40 mm\" }\ndisplacement.y = \"0 mm\"\ndisplacement.z = \"0 mm\"\n";
+  const std::string text = soft_material +
+                           "[boundary.\"x-\"]\nclamp = true\n[boundary.\"x+\"]\ndisplacement.x = { time = \"0, 1 s\", "
+                           "value = \"0, -40 mm\" }\ndisplacement.y = \"0 mm\"\ndisplacement.z = \"0 mm\"\n";
   const auto model = make_block(text);
   const Step impossible = model->advance(1.0);
   EXPECT_FALSE(impossible.ok());

@@ -1,5 +1,5 @@
-// The assembled tangent is the derivative of the assembled residual: shown by the order of a central difference, which a
-// wrong entry turns from two into zero.
+// The assembled tangent is the derivative of the assembled residual: shown by the order of a central difference, which
+// a wrong entry turns from two into zero.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,9 @@ struct Derivative {
   MuscleSystem& system;
 
   explicit Derivative(Muscle& model)
-      : u(interpolate(model.system().space(), deformation)), w(interpolate(model.system().space(), direction)), system(model.system()) {
+      : u(interpolate(model.system().space(), deformation)),
+        w(interpolate(model.system().space(), direction)),
+        system(model.system()) {
     mfem::Vector u_old = u;
     u_old *= 0.4;  // every fibre lengthens at a rate between two joints of the force-velocity curve
     mfem::Vector v_old = u;
@@ -79,7 +81,9 @@ struct Derivative {
     RecordProperty("error", fine);
     return std::log2(coarse / fine);
   }
-  static void RecordProperty(const char* name, double value) { testing::Test::RecordProperty(name, std::to_string(value)); }
+  static void RecordProperty(const char* name, double value) {
+    testing::Test::RecordProperty(name, std::to_string(value));
+  }
 };
 
 const std::string ends = "[boundary.\"x-\"]\nclamp = true\n";
@@ -121,7 +125,8 @@ TEST_P(Tangent, IsSymmetricExactlyWhereItSaysSo) {
 INSTANTIATE_TEST_SUITE_P(
     All, Tangent,
     testing::Values(Case{"soft", soft_material + ends, true}, Case{"muscle", muscle_material + ends, true},
-                    Case{"muscle_velocity_gradient", "[muscle]\nfibre_rate = \"velocity_gradient\"\n" + muscle_material + ends, false},
+                    Case{"muscle_velocity_gradient",
+                         "[muscle]\nfibre_rate = \"velocity_gradient\"\n" + muscle_material + ends, false},
                     Case{"quasi_static", "[muscle]\ninertia = \"quasi-static\"\n" + muscle_material + ends, true},
                     Case{"order_1", "[muscle]\norder = 1\n" + muscle_material + ends, true},
                     Case{"order_3", "[muscle]\norder = 3\n" + soft_material + ends, true},

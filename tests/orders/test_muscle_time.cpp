@@ -47,7 +47,8 @@ displacement.y = "0 mm"
 displacement.z = "0 mm"
 [solver]
 tolerance = 1e-11
-)", rate, time, activation, time, length);
+)",
+                     rate, time, activation, time, length);
 }
 
 struct End {
@@ -68,8 +69,8 @@ double distance(const mfem::Vector& a, const mfem::Vector& b) {
 }
 
 TEST(Time, BackwardEulerIsOfFirstOrder) {
-  const End h1 = run("stretch_difference", 0.01), h2 = run("stretch_difference", 0.005), h4 = run("stretch_difference", 0.0025),
-            h8 = run("stretch_difference", 0.00125);
+  const End h1 = run("stretch_difference", 0.01), h2 = run("stretch_difference", 0.005),
+            h4 = run("stretch_difference", 0.0025), h8 = run("stretch_difference", 0.00125);
   const double coarse = distance(h1.u, h2.u), middle = distance(h2.u, h4.u), fine = distance(h4.u, h8.u);
   fmt::print("displacement slopes {:.3f} {:.3f}\n", std::log2(coarse / middle), std::log2(middle / fine));
   EXPECT_GT(std::log2(middle / fine), lowest);
@@ -90,8 +91,9 @@ TEST(Time, FibreRatesDifferByAFirstOrderTerm) {
   std::vector<double> differences;
   for (double dt : {0.01, 0.005, 0.0025})
     differences.push_back(std::abs(run("stretch_difference", dt).force - run("velocity_gradient", dt).force));
-  fmt::print("force differences of the rates {:.4e} {:.4e} {:.4e} N, slopes {:.3f} {:.3f}\n", differences[0], differences[1],
-             differences[2], std::log2(differences[0] / differences[1]), std::log2(differences[1] / differences[2]));
+  fmt::print("force differences of the rates {:.4e} {:.4e} {:.4e} N, slopes {:.3f} {:.3f}\n", differences[0],
+             differences[1], differences[2], std::log2(differences[0] / differences[1]),
+             std::log2(differences[1] / differences[2]));
   EXPECT_GT(differences[2], 0);
   EXPECT_GT(std::log2(differences[1] / differences[2]), lowest);
   EXPECT_LT(std::log2(differences[1] / differences[2]), highest);
