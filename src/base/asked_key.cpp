@@ -37,7 +37,7 @@ Numbers bare_number(const AskedKey& asked, const toml::node& node) {
   const std::string unit(asked.key.unit);
   if (!std::isfinite(x))
     asked.complain(fmt::format("{} is not a finite number", shown(node)),
-                   fmt::format("write {}, such as {}", units::noun(unit), sample("number", asked.key, {})));
+                   fmt::format("write {}, such as {}", units::noun(unit), sample("number", {.unit = unit}, {})));
   else if (!unit.empty())
     asked.complain(fmt::format("{} has no unit", shown(node)),
                    fmt::format("write {} with its unit, such as \"{}\"", units::noun(unit), units::example(unit)));

@@ -188,14 +188,15 @@ void SceneText::complain(const std::string& table, std::string_view name, const 
                          const std::string& advice) {
   if (describing) return;
   complaints.push_back({place(table, name), name.empty() ? table : join_path(table, name),
-                        advice.empty() ? problem : fmt::format("{}; {}", problem, advice), false});
+                        advice.empty() ? problem : fmt::format("{}; {}", problem, advice),
+                        name.empty() ? Complaint::Of::table : Complaint::Of::key});
 }
 
 void SceneText::complain_missing(const std::string& table, std::string_view name, const std::string& text) {
   const std::string path = join_path(table, name);
   if (describing || std::any_of(not_tables.begin(), not_tables.end(), [&](auto& t) { return is_below(path, t); }))
     return;
-  complaints.push_back({place(table, name), path, text, true});
+  complaints.push_back({place(table, name), path, text, Complaint::Of::missing_key});
 }
 
 void SceneText::walk(const std::string& table, const toml::table* node) {
@@ -234,7 +235,9 @@ void SceneText::unknown(const std::string& table, const toml::key& key) {
   std::string meant = nearest(key.str(), known[table]), advice;
   if (!meant.empty()) {  // then that one is misspelt, not missing
     const std::string right = join_path(table, meant);
-    std::erase_if(complaints, [&](auto& c) { return c.missing && (c.path == right || is_below(c.path, right)); });
+    std::erase_if(complaints, [&](const Complaint& c) {
+      return c.what == Complaint::Of::missing_key && (c.path == right || is_below(c.path, right));
+    });
   }
   for (const auto& [other, names] : known)
     if (meant.empty() && contains(names, key.str())) meant = join_path(other, key.str());
@@ -245,7 +248,7 @@ void SceneText::unknown(const std::string& table, const toml::key& key) {
   else
     advice = "remove it";
   const Place where = from_command_line(path) ? Place{true, 0, 0} : place_of(key.source());
-  complaints.push_back({where, path, "unknown key; " + advice, false});
+  complaints.push_back({where, path, "unknown key; " + advice});
 }
 
 void SceneText::find_unknown(const std::string& table) {
@@ -263,6 +266,13 @@ void SceneText::find_unknown(const std::string& table) {
 
 std::vector<std::string> SceneText::messages() const {
   auto sorted = complaints;
+  // What a table lacks as a whole often only follows from a key in it that is wrong.
+  std::erase_if(sorted, [&](const Complaint& table) {
+    return table.what == Complaint::Of::table && std::any_of(complaints.begin(), complaints.end(), [&](auto& c) {
+             return c.what == Complaint::Of::key && is_below(c.path, table.path) &&
+                    c.path.find('.', table.path.size() + 1) == std::string::npos;
+           });
+  });
   std::stable_sort(sorted.begin(), sorted.end(), [](const Complaint& a, const Complaint& b) {
     return std::tie(a.place.command_line, a.place.line, a.place.column) <
            std::tie(b.place.command_line, b.place.line, b.place.column);

@@ -22,9 +22,10 @@ struct Place {
 };
 
 struct Complaint {
+  enum class Of { key, table, missing_key };
   Place place;
   std::string path, text;
-  bool missing = false;  // a required key that is not there: taken back when a misspelt one is found
+  Of what = Of::key;
 };
 
 /// A line of resolved.toml.

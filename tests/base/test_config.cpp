@@ -184,6 +184,20 @@ TEST(Config, ChecksCurves) {
                      "scene's own folder (looked for \"not/there.dat\")"});
 }
 
+TEST(Config, DoesNotBlameATableForAKeyThatIsWrong) {
+  Config config("[mesh]\nbox = 3\n", "block.toml");
+  Section mesh = config.root().section("mesh");
+  double box = 0;
+  mesh.read("box", box, {.unit = "m"});
+  mesh.error("", "no mesh");
+  try {
+    config.finish();
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.messages().size(), 1u);
+  }
+}
+
 TEST(Config, TakesOverridesInTheGrammarOfTheFile) {
   const Scene s = read(time_table + "[boundary.\"x+\"]\ndisplacement = {time = \"0, 1 s\", value = \"0, 3 mm\"}\n",
                        {"time.step=25 ms", "time.step = \"50 ms\"", "mesh.cells=[2, 3, 4]", "mesh.size=30, 10, 10 mm",
