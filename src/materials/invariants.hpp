@@ -1,20 +1,22 @@
 /// The invariants that energies are written in, their gradients, and stress and tangent from an energy's scalar
 /// derivatives.
 ///
-/// With F the deformation gradient, J = det F, C = F^T F, a0 the fibre direction, f = F a0 and Cbar = J^-2/3 C:
+/// With F the deformation gradient, J = det F, C = F^T F, a0 and b0 the fibre directions and Cbar = J^-2/3 C:
 ///
-///     I1 = tr Cbar,   I2 = (I1^2 - tr Cbar^2) / 2,   J,   I4 = a0 . Cbar a0  (or a0 . C a0: "full"),   r = rate of
-///     sqrt(I4)
+///     I1 = tr Cbar,   I2 = (I1^2 - tr Cbar^2) / 2,   J,
+///     I4 = a0 . Cbar a0,   I5 = a0 . Cbar^2 a0,   I6 = b0 . Cbar b0,   I8 = a0 . Cbar b0   (C for Cbar: "full"),
+///     r = rate of sqrt(I4)
 ///
 /// For W(I_a):  P = sum W_a G_a  and  A = dP/dF = sum W_a D_a + sum W_ab G_a (x) G_b,  G_a = dI_a/dF, D_a = dG_a/dF.
 /// The rate r enters as one more invariant that has a gradient and no conjugate force (W_r = 0): a fibre stress that
-/// depends on it contributes W_4r, and A loses its symmetry unless r is a function of I4 alone. Values are carried as
-/// what they exceed their value at rest (I1 - 3, J - 1, ...) and come from the Green strain, so that small strains keep
-/// their digits. All is NaN where J <= 0. Formulas: Holzapfel, Nonlinear Solid Mechanics (2000), ch. 6; derived anew in
-/// docs/theory/materials.md. SI units.
+/// depends on it contributes W_4r, and A loses its symmetry unless r is a function of I4 alone.
+/// Values are carried as what they exceed their value at rest (I1 - 3, J - 1, ...) and come from the Green strain, so
+/// that small strains keep their digits. All is NaN where J <= 0.
+/// Formulas: Holzapfel, Nonlinear Solid Mechanics (2000), ch. 6; derived anew in docs/theory/materials.md. SI units.
 #pragma once
 
 #include <array>
+#include <initializer_list>
 
 #include "math/lanes.hpp"
 #include "math/tensor.hpp"
@@ -31,8 +33,11 @@ enum class FibreRate {
 /// Which fibre invariants: of Cbar (stress is a deviator) or of C.
 enum class FibreMeasure { isochoric, full };
 
-enum class Invariant { I1, I2, J, I4, rate };
-inline constexpr int invariant_count = 5;
+/// Which of two families of fibres a term means.
+enum class FibreFamily { first, second };
+
+enum class Invariant { I1, I2, J, I4, I5, I6, I8, rate };  // rate is the last: the others have forces
+inline constexpr int invariant_count = 8;
 constexpr int index(Invariant a) { return static_cast<int>(a); }
 
 template <class T>
@@ -47,6 +52,11 @@ class InvariantSet {
   constexpr void insert(Invariant a) { bits_ |= 1u << index(a); }
   constexpr void insert(InvariantSet s) { bits_ |= s.bits_; }
   constexpr void erase(Invariant a) { bits_ &= ~(1u << index(a)); }
+  constexpr bool has_any(std::initializer_list<Invariant> list) const {
+    for (Invariant a : list)
+      if (has(a)) return true;
+    return false;
+  }
   constexpr bool has(Invariant a) const { return bits_ >> index(a) & 1u; }
 
  private:
@@ -63,22 +73,42 @@ struct FibreOptions {
 /// A point's deformation, ready for values and gradients. T is a number, or Lanes for several points at once.
 template <class T>
 struct Kinematics {
-  Tensor3<T> F, Ft, E;  ///< Ft = F^-T; E = Green strain
-  T J_1, J;             ///< J - 1 without cancellation, J
-  T y;                  ///< J^-1/3
-  Vector3<T> a0, f;     ///< fibre direction and F a0
-  T m, aEa;             ///< f . f and a0 . E a0
+  Tensor3<T> F, Ft, E;   ///< Ft = F^-T; E = Green strain
+  T J_1, J;              ///< J - 1 without cancellation, J
+  T y;                   ///< J^-1/3
+  Vector3<T> a0{}, f{};  ///< first fibre direction and F a0
+  Vector3<T> b0{}, g{};  ///< second fibre direction and F b0
+  T m;                   ///< f . f
   FibreOptions options;
   T rate = 0;         ///< of the stretch [1/s]
   Tensor3<T> G_rate;  ///< its gradient; set for FibreRate::velocity_gradient only
 };
 
-/// `F_old` and `a0` are looked at only when `used` says so.
+/// Unit fibre directions in the reference configuration.
 template <class T>
-Kinematics<T> kinematics(const Tensor3<T>& F, const Tensor3<T>& F_old, const Vector3<T>& a0, InvariantSet used,
+struct FibrePair {
+  Vector3<T> first{}, second{};
+};
+
+/// `F_old` and `fibres` are looked at only when `used` says so.
+template <class T>
+Kinematics<T> kinematics(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fibres, InvariantSet used,
                          const FibreOptions& options);
 
-/// The invariants' excess over rest: I1 - 3, I2 - 3, J - 1, I4 - 1, rate.
+/// The invariants u0 . C v0 that are quadratic in F, with u = F u0 and v = F v0.
+template <class T>
+struct Quadratic {
+  const Vector3<T>&u0, &v0, &u, &v;
+};
+inline constexpr std::array quadratic_invariants{Invariant::I4, Invariant::I6, Invariant::I8};
+template <class T>
+Quadratic<T> quadratic(const Kinematics<T>& k, Invariant a) {
+  if (a == Invariant::I4) return {k.a0, k.a0, k.f, k.f};
+  if (a == Invariant::I6) return {k.b0, k.b0, k.g, k.g};
+  return {k.a0, k.b0, k.f, k.g};
+}
+
+/// The invariants' excess over rest: I1 - 3, I2 - 3, J - 1, I4 - 1, I5 - 1, I6 - 1, I8 - a0 . b0, rate.
 template <class T>
 PerInvariant<T> values(const Kinematics<T>& k, InvariantSet used);
 

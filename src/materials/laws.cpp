@@ -42,11 +42,10 @@ const std::vector<VolumetricEntry>& volumetric_entries() { return detail::volume
 
 namespace {
 
-template <class Entry>
-LawInfo described(const Entry& entry) {
-  LawInfo info = entry.info;
+template <class Read>
+LawInfo described(LawInfo info, Read read) {
   Config config = Config::describing();
-  entry.read(config.root());
+  read(config.root());
   info.parameters = config.keys();
   return info;
 }
@@ -55,8 +54,9 @@ LawInfo described(const Entry& entry) {
 
 std::vector<LawInfo> laws() {
   std::vector<LawInfo> all;
-  for (const LawEntry& entry : law_entries()) all.push_back(described(entry));
-  for (const VolumetricEntry& entry : volumetric_entries()) all.push_back(described(entry));
+  for (const LawEntry& entry : law_entries())
+    all.push_back(described(entry.info, [&](Section s) { entry.read(s, {}); }));
+  for (const VolumetricEntry& entry : volumetric_entries()) all.push_back(described(entry.info, entry.read));
   return all;
 }
 

@@ -25,14 +25,23 @@ const Entry* choose_law(Section& s, const std::vector<Entry>& entries, const cha
   return chosen < 0 || s.describing() ? nullptr : &entries[chosen];
 }
 
+TermOptions read_options(Section& s, const LawEntry* entry, FibreMeasure measure) {
+  TermOptions options{measure, FibreFamily::first};
+  if (s.describing() || (entry && entry->either_family))
+    s.choose("family", options.family, {{"first", FibreFamily::first}, {"second", FibreFamily::second}},
+             {.doc = "fibre laws: along `fibre` or along `second_fibre`"});
+  return options;
+}
+
 void read_term(const std::string& name, Section s, double weight, SumMaterial::Parts& parts) {
   const LawEntry* entry = choose_law(s, law_entries(), nullptr, "see `titin materials` for the laws and their keys");
+  const TermOptions options = read_options(s, entry, parts.measure);
   if (!entry) return;
   const auto same = [&](const WeightedTerm& t) { return t.info.name == name; };
   if (std::any_of(parts.terms.begin(), parts.terms.end(), same))
     s.error("", "this material has another term called \"" + name + "\"",
             "terms of a material and of its mix share names: choose another");
-  parts.terms.push_back({{name, entry->info.name, entry->info.stores_energy}, weight, entry->read(s)});
+  parts.terms.push_back({{name, entry->info.name, entry->info.stores_energy}, weight, entry->read(s, options)});
 }
 
 void read_terms(Section& s, double weight, SumMaterial::Parts& parts) {
@@ -68,18 +77,30 @@ void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
   read_volumetric(s, weight, !has_volume, parts);
 }
 
-void read_fibre(Section& s, SumMaterial::Parts& parts) {
-  const auto needs = [](const WeightedTerm& t) { return t.term->needs_fibre(); };
-  const auto term = std::find_if(parts.terms.begin(), parts.terms.end(), needs);
-  const bool given = s.has("fibre");
-  if (given) parts.fibre = {1, 0, 0};  // stays if what is given cannot be read, which is reported there
-  s.read("fibre", parts.fibre, {.doc = "direction of the fibres in the reference configuration; any length but zero"});
-  const double length = norm(parts.fibre);
-  if (given && !(length > 0)) s.error("fibre", "a fibre of zero length has no direction", "give one such as [1, 0, 0]");
-  if (!given && term != parts.terms.end())
-    s.error("", "term \"" + term->info.name + "\" (" + term->info.law + ") needs fibres", "add fibre = [1, 0, 0], say");
-  if (length > 0)
-    for (double& x : parts.fibre) x /= length;
+using Needs = bool (Term::*)() const;
+
+void read_direction(Section& s, const char* key, const char* doc, Needs needs, Vec3& direction,
+                    const SumMaterial::Parts& parts) {
+  const bool given = s.has(key);
+  if (given) direction = {1, 0, 0};  // stays if what is given cannot be read, which is reported there
+  s.read(key, direction, {.doc = doc});
+  const double length = norm(direction);
+  if (given && !(length > 0)) s.error(key, "a fibre of zero length has no direction", "give one such as [1, 0, 0]");
+  if (length > 0) direction = {direction[0] / length, direction[1] / length, direction[2] / length};
+  for (const WeightedTerm& t : parts.terms)
+    if (!given && (t.term.get()->*needs)())
+      return s.error("", "term \"" + t.info.name + "\" (" + t.info.law + ") needs fibres",
+                     std::string("add ") + key + " = [1, 0, 0], say");
+}
+
+void read_fibres(Section& s, SumMaterial::Parts& parts) {
+  read_direction(s, "fibre", "direction of the fibres in the reference configuration; any length but zero",
+                 &Term::needs_fibre, parts.fibres.first, parts);
+  read_direction(s, "second_fibre", "direction of a second family of fibres, or of sheets", &Term::needs_second_fibre,
+                 parts.fibres.second, parts);
+}
+
+void read_measure(Section& s, SumMaterial::Parts& parts) {
   s.choose("fibre_invariants", parts.measure, {{"isochoric", FibreMeasure::isochoric}, {"full", FibreMeasure::full}},
            {.doc = "stretch of fibres without the change of volume, or with it"});
 }
@@ -97,6 +118,7 @@ double read_mix_fraction(Section mix) {
 
 std::shared_ptr<const Material> Material::read(Section s) {
   SumMaterial::Parts parts;
+  read_measure(s, parts);
   const bool mixed = s.has("mix") || s.describing();
   double share = 0;
   if (mixed) {
@@ -105,7 +127,7 @@ std::shared_ptr<const Material> Material::read(Section s) {
   }
   read_constituent(s, 1 - share, parts);
   if (mixed) read_constituent(s.section("mix"), share, parts);
-  read_fibre(s, parts);
+  read_fibres(s, parts);
   return std::make_shared<SumMaterial>(std::move(parts));
 }
 

@@ -25,6 +25,7 @@ struct PointInput {
   double time = 0;  ///< t_n+1 [s]: time curves (activation) are taken here
   double dt = 0;    ///< [s]; a rate needs dt > 0
   FibreRate rate = FibreRate::none;
+  const Vec3* second_fibre = nullptr;  ///< [n] of the second family; null: the material's own
 };
 
 /// What a term of a material is called and whether it stores energy (the others do work: active stress).

@@ -23,7 +23,7 @@ struct LawInfo {
   std::string name, kind, formula, source;  ///< kind: matrix, fibre, active or volumetric
   std::vector<KeyRecord> parameters;
   std::vector<ParameterSet> published;
-  bool needs_fibre = false, stores_energy = true, uses_rate = false;
+  bool needs_fibre = false, needs_second_fibre = false, stores_energy = true, uses_rate = false;
   std::string pulls_at_rest;  ///< why there is stress without deformation; "" when there is none
 };
 
@@ -37,9 +37,16 @@ class VolumetricLaw {
   virtual Value evaluate(double ratio) const = 0;
 };
 
+/// What a material's term knows besides the law's own parameters.
+struct TermOptions {
+  FibreMeasure measure = FibreMeasure::isochoric;  ///< handed to laws with a member of that name
+  FibreFamily family = FibreFamily::first;
+};
+
 struct LawEntry {
   LawInfo info;
-  std::function<std::unique_ptr<Term>(Section)> read;
+  bool either_family = false;  ///< a fibre law without rate: may run along the second family too
+  std::function<std::unique_ptr<Term>(Section, TermOptions)> read;
 };
 struct VolumetricEntry {
   LawInfo info;
@@ -75,25 +82,30 @@ LawInfo info() {
 }
 
 template <class Law>
-std::unique_ptr<Term> make_term(Law law) {
+std::unique_ptr<Term> make_term(Law law, TermOptions options) {
+  if constexpr (requires { law.measure = options.measure; }) law.measure = options.measure;
   if constexpr (InvariantLaw<Law>)
-    return std::make_unique<EnergyTerm<Law>>(std::move(law));
+    return std::make_unique<EnergyTerm<Law>>(std::move(law), options.family);
   else
-    return std::make_unique<FibreTerm<Law>>(std::move(law));
+    return std::make_unique<FibreTerm<Law>>(std::move(law), options.family);
 }
 
 template <class Law>
 bool register_law() {
   LawInfo info = detail::info<Law>();
-  const auto term = make_term(Law{});
+  const auto term = make_term(Law{}, {});
+  const InvariantSet uses = term->uses();
   info.needs_fibre = term->needs_fibre();
+  info.needs_second_fibre = term->needs_second_fibre();
   info.stores_energy = term->stores_energy();
-  info.uses_rate = term->uses().has(Invariant::rate);
+  info.uses_rate = uses.has(Invariant::rate);
   info.kind = !info.stores_energy ? "active" : info.needs_fibre ? "fibre" : "matrix";
-  return add(LawEntry{std::move(info), [](Section s) {
+  const bool either =
+      uses.has(Invariant::I4) && !uses.has_any({Invariant::I5, Invariant::I6, Invariant::I8, Invariant::rate});
+  return add(LawEntry{std::move(info), either, [](Section s, TermOptions options) {
                         Law law;
                         law.bind(s);
-                        return make_term(std::move(law));
+                        return make_term(std::move(law), options);
                       }});
 }
 

@@ -29,6 +29,12 @@ void scatter_all(const std::array<Lanes, size>& x, std::array<double, size>* poi
     for (int lane = 0; lane < count; ++lane) points[first + lane][c] = lanes[c][lane];
 }
 
+/// Directions of the points, or of the material where the caller gives none.
+Vector3<Lanes> directions(const Vec3* given, const Vec3& own, int first, int n) {
+  if (given) return gather_all(given, first, n);
+  return {Lanes(own[0]), Lanes(own[1]), Lanes(own[2])};
+}
+
 Lanes load(const BlockValues& values, int group) {
   return Lanes(&values[group * lane_count], std::experimental::element_aligned);
 }
@@ -36,7 +42,8 @@ Lanes load(const BlockValues& values, int group) {
 /// Up to block_size points of an input, from their deformation to their stress.
 class Block {
  public:
-  Block(const PointInput& in, int first, InvariantSet used, FibreMeasure measure) : first_(first), end_(in.n) {
+  Block(const PointInput& in, int first, InvariantSet used, const SumMaterial::Parts& parts, FibreMeasure measure)
+      : first_(first), end_(in.n) {
     const FibreRate rate = in.F_old && in.dt > 0 ? in.rate : FibreRate::none;
     if (rate == FibreRate::none) used.erase(Invariant::rate);
     used_ = used;
@@ -44,13 +51,14 @@ class Block {
     points.n = std::min(block_size, in.n - first);
     points.time = in.time;
     points.excess[index(Invariant::rate)].fill(0);
-    for (int g = 0; g < active_groups(); ++g) set_group(in, g);
+    for (int g = 0; g < active_groups(); ++g) set_group(in, parts.fibres, g);
   }
 
   /// Sums the terms' derivatives.
   void differentiate(std::span<const WeightedTerm> terms, bool want_second) {
     W_.want_second = want_second;
     for (int a = 0; a < invariant_count; ++a) {
+      if (!used_.has(Invariant(a))) continue;
       W_.first[a].fill(0);
       if (want_second)
         for (int b = 0; b < invariant_count; ++b) W_.second[a][b].fill(0);
@@ -77,13 +85,15 @@ class Block {
  private:
   int active_groups() const { return (points.n + lane_count - 1) / lane_count; }
 
-  void set_group(const PointInput& in, int g) {
+  void set_group(const PointInput& in, const FibrePair<double>& own, int g) {
     const int p = first_ + g * lane_count;
     Tensor3<Lanes> F_old{};
-    Vector3<Lanes> a0{};
+    FibrePair<Lanes> fibres;
     if (used_.has(Invariant::rate)) F_old = gather_all(in.F_old, p, end_);
-    if (used_.has(Invariant::I4)) a0 = gather_all(in.fibre, p, end_);
-    kinematics_[g] = kinematics(gather_all(in.F, p, end_), F_old, a0, used_, options_);
+    if (used_.has_any({Invariant::I4, Invariant::I5, Invariant::I8}))
+      fibres.first = directions(in.fibre, own.first, p, end_);
+    if (used_.has_any({Invariant::I6, Invariant::I8})) fibres.second = directions(in.second_fibre, own.second, p, end_);
+    kinematics_[g] = kinematics(gather_all(in.F, p, end_), F_old, fibres, used_, options_);
     const auto v = values(kinematics_[g], used_);
     for (int a = 0; a < invariant_count; ++a)
       if (used_.has(Invariant(a))) v[a].copy_to(&points.excess[a][g * lane_count], std::experimental::element_aligned);
@@ -122,7 +132,7 @@ bool SumMaterial::symmetric_tangent(FibreRate rate) const {
 void SumMaterial::evaluate(const PointInput& in, std::span<const WeightedTerm> terms, Mat3* P, Mat9* A) const {
   const InvariantSet used = used_by(terms);
   for (int first = 0; first < in.n; first += block_size) {
-    Block block(in, first, used, parts_.measure);
+    Block block(in, first, used, parts_, parts_.measure);
     block.differentiate(terms, A != nullptr);
     block.write(P, A);
   }
@@ -139,7 +149,7 @@ void SumMaterial::term_energy(int term, const PointInput& in, double* W) const {
   std::fill_n(W, in.n, 0.0);
   if (!t.term->stores_energy()) return;
   for (int first = 0; first < in.n; first += block_size) {
-    const Block block(in, first, t.term->uses(), parts_.measure);
+    const Block block(in, first, t.term->uses(), parts_, parts_.measure);
     t.term->add_energy(block.points, t.weight, W + first);
   }
 }
@@ -157,7 +167,7 @@ void SumMaterial::fibre_state(const PointInput& in, double* stretch, double* rat
   used.insert(Invariant::I4);
   used.insert(Invariant::rate);
   for (int first = 0; first < in.n; first += block_size) {
-    const Block block(in, first, used, FibreMeasure::full);
+    const Block block(in, first, used, parts_, FibreMeasure::full);
     for (int p = 0; p < block.points.n; ++p) {
       stretch[first + p] = std::sqrt(1 + block.points.excess[index(Invariant::I4)][p]);
       rate[first + p] = block.points.excess[index(Invariant::rate)][p];

@@ -26,7 +26,7 @@ class SumMaterial final : public Material {
  public:
   struct Parts {
     double density = 0;
-    Vec3 fibre{};
+    FibrePair<double> fibres;
     FibreMeasure measure = FibreMeasure::isochoric;
     std::vector<WeightedTerm> terms;
     std::vector<WeightedVolumetric> volumetric;
@@ -34,8 +34,8 @@ class SumMaterial final : public Material {
   explicit SumMaterial(Parts parts);
 
   double density() const override { return parts_.density; }
-  Vec3 fibre() const override { return parts_.fibre; }
-  bool has_fibres() const override { return used_.has(Invariant::I4); }
+  Vec3 fibre() const override { return parts_.fibres.first; }
+  bool has_fibres() const override { return used_.has_any({Invariant::I4, Invariant::I5, Invariant::I8}); }
   bool has_volumetric_law() const override { return !parts_.volumetric.empty(); }
   bool symmetric_tangent(FibreRate rate) const override;
   const std::vector<TermInfo>& terms() const override { return infos_; }

@@ -39,7 +39,8 @@ class Term {
   virtual ~Term() = default;
   virtual InvariantSet uses() const = 0;
   virtual bool stores_energy() const = 0;
-  virtual bool needs_fibre() const = 0;
+  bool needs_fibre() const { return uses().has_any({Invariant::I4, Invariant::I5, Invariant::I8}); }
+  bool needs_second_fibre() const { return uses().has_any({Invariant::I6, Invariant::I8}); }
   /// Adds weight times the derivatives of the energy.
   virtual void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const = 0;
   /// Adds weight times the energy [J/m^3]; nothing for a term that stores none.
@@ -47,7 +48,7 @@ class Term {
   virtual double activation(double /*time*/) const { return 0; }
 };
 
-/// What an energy is a function of: I1 - 3, I2 - 3, J - 1, I4 - 1.
+/// What an energy is a function of: I1 - 3, I2 - 3, J - 1, I4 - 1, I5 - 1, I6 - 1, I8 - a0 . b0.
 template <class T>
 struct Invariants {
   PerInvariant<T> excess{};
@@ -55,6 +56,9 @@ struct Invariants {
   const T& e2() const { return excess[index(Invariant::I2)]; }
   const T& eJ() const { return excess[index(Invariant::J)]; }
   const T& e4() const { return excess[index(Invariant::I4)]; }
+  const T& e5() const { return excess[index(Invariant::I5)]; }
+  const T& e6() const { return excess[index(Invariant::I6)]; }
+  const T& e8() const { return excess[index(Invariant::I8)]; }
 };
 
 template <class Law>
@@ -75,12 +79,14 @@ concept StoringFibreLaw = FibreLaw<Law> && requires(const Law& law, double x) {
 template <InvariantLaw Law>
 class EnergyTerm final : public Term {
  public:
-  explicit EnergyTerm(Law law) : law_(std::move(law)) {}
+  EnergyTerm(Law law, FibreFamily family) : law_(std::move(law)), slots_(Law::uses) {
+    for (Invariant& a : slots_)
+      if (a == Invariant::I4 && family == FibreFamily::second) a = Invariant::I6;
+  }
   bool stores_energy() const override { return true; }
-  bool needs_fibre() const override { return uses().has(Invariant::I4); }
   InvariantSet uses() const override {
     InvariantSet set;
-    for (Invariant a : Law::uses) set.insert(a);
+    for (Invariant a : slots_) set.insert(a);
     return set;
   }
   void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const override {
@@ -92,7 +98,7 @@ class EnergyTerm final : public Term {
   void add_energy(const PointBlock& points, double weight, double* sum) const override {
     for (int p = 0; p < points.n; ++p) {
       Invariants<double> x;
-      for (Invariant a : Law::uses) x.excess[index(a)] = points.excess[index(a)][p];
+      for (int a = 0; a < M; ++a) x.excess[index(Law::uses[a])] = points.excess[index(slots_[a])][p];
       sum[p] += weight * law_.energy(x);
     }
   }
@@ -105,40 +111,40 @@ class EnergyTerm final : public Term {
     using Number = Dual<M, order>;
     for (int p = 0; p < points.n; ++p) {
       Invariants<Number> x;
-      for (int a = 0; a < M; ++a) {
-        const int i = index(Law::uses[a]);
-        x.excess[i] = Number::variable(points.excess[i][p], a);
-      }
+      for (int a = 0; a < M; ++a)
+        x.excess[index(Law::uses[a])] = Number::variable(points.excess[index(slots_[a])][p], a);
       const Number W = law_.energy(x);
       for (int a = 0; a < M; ++a) {
-        sum.first[index(Law::uses[a])][p] += weight * W.gradient[a];
+        const int row = index(slots_[a]);
+        sum.first[row][p] += weight * W.gradient[a];
         if constexpr (order == 2)
-          for (int b = 0; b < M; ++b)
-            sum.second[index(Law::uses[a])][index(Law::uses[b])][p] += weight * W.hessian[Number::pair(a, b)];
+          for (int b = 0; b < M; ++b) sum.second[row][index(slots_[b])][p] += weight * W.hessian[Number::pair(a, b)];
       }
     }
   }
 
   Law law_;
+  std::array<Invariant, M> slots_;  ///< where the law's invariants are found: I4 of the second family is I6
 };
 
 /// W_4 = sigma / (2 I4), whose derivatives are W_44 = (lambda sigma' - 2 sigma) / (4 I4^2) and W_4r = sigma_r / (2 I4).
 template <FibreLaw Law>
 class FibreTerm final : public Term {
  public:
-  explicit FibreTerm(Law law) : law_(std::move(law)) {}
+  FibreTerm(Law law, FibreFamily family)
+      : law_(std::move(law)), slot_(family == FibreFamily::second ? Invariant::I6 : Invariant::I4) {}
   bool stores_energy() const override { return StoringFibreLaw<Law>; }
-  bool needs_fibre() const override { return true; }
   InvariantSet uses() const override {
     InvariantSet set;
-    set.insert(Invariant::I4);
+    set.insert(slot_);
     if (Law::uses_rate) set.insert(Invariant::rate);
     return set;
   }
   void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const override {
     constexpr int M = Law::uses_rate ? 2 : 1;
     using Number = Dual<M, 1>;
-    constexpr int i4 = index(Invariant::I4), ir = index(Invariant::rate);
+    constexpr int ir = index(Invariant::rate);
+    const int i4 = index(slot_);
     for (int p = 0; p < points.n; ++p) {
       const double I4 = 1 + points.excess[i4][p], stretch = std::sqrt(I4), half = 0.5 * weight / I4;
       Number rate = 0;
@@ -152,8 +158,7 @@ class FibreTerm final : public Term {
   }
   void add_energy(const PointBlock& points, double weight, double* sum) const override {
     if constexpr (StoringFibreLaw<Law>)
-      for (int p = 0; p < points.n; ++p)
-        sum[p] += weight * law_.energy(std::sqrt(1 + points.excess[index(Invariant::I4)][p]));
+      for (int p = 0; p < points.n; ++p) sum[p] += weight * law_.energy(std::sqrt(1 + points.excess[index(slot_)][p]));
   }
   double activation(double time) const override {
     if constexpr (requires { law_.activation(time); })
@@ -164,6 +169,7 @@ class FibreTerm final : public Term {
 
  private:
   Law law_;
+  Invariant slot_;
 };
 
 }  // namespace titin

@@ -64,6 +64,13 @@ Tensor3<T> dyad(const Vector3<T>& a, const Vector3<T>& b) {
   return {a[0] * b[0], a[0] * b[1], a[0] * b[2], a[1] * b[0], a[1] * b[1],
           a[1] * b[2], a[2] * b[0], a[2] * b[1], a[2] * b[2]};
 }
+/// s X
+template <class T>
+Tensor3<T> scaled(const T& s, const Tensor3<T>& X) {
+  Tensor3<T> Y;
+  for (int i = 0; i < 9; ++i) Y[i] = s * X[i];
+  return Y;
+}
 /// Y += s X
 template <class T>
 void add(Tensor3<T>& Y, const T& s, const Tensor3<T>& X) {
