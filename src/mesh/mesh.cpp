@@ -111,6 +111,7 @@ void MeshConfig::bind(Section& s) {
 NamedMesh NamedMesh::read(const MeshConfig& config, Section section) {
   NamedMesh named;
   const bool has_box = config.box != std::array<double, 3>{0, 0, 0};
+  if (!has_box && config.file.empty() && (section.has("box") || section.has("file"))) return named;  // reported already
   if (has_box == !config.file.empty()) {
     section.error("", has_box ? "a mesh is either a box or a file, not both" : "no mesh",
                   "give mesh.box (with mesh.cells) or mesh.file");
