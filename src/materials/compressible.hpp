@@ -8,7 +8,7 @@ namespace titin {
 
 /// Material::stress plus the volumetric law at J = det F.
 void whole_stress(const Material& material, const PointInput& in, Mat3* P, Mat9* A);
-/// Stored energy of all terms plus U(J) [J/m^3].
+/// Material::potential plus U(J) [J/m^3].
 void whole_energy(const Material& material, const PointInput& in, double* W);
 
 }  // namespace titin

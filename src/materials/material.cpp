@@ -33,25 +33,29 @@ TermOptions read_options(Section& s, const LawEntry* entry, FibreMeasure measure
   return options;
 }
 
-void read_term(const std::string& name, Section s, double weight, SumMaterial::Parts& parts) {
+bool read_term(const std::string& name, Section s, double weight, SumMaterial::Parts& parts) {
   const LawEntry* entry = choose_law(s, law_entries(), nullptr, "see `titin materials` for the laws and their keys");
   const TermOptions options = read_options(s, entry, parts.measure);
-  if (!entry) return;
+  if (!entry) return false;
   const auto same = [&](const WeightedTerm& t) { return t.info.name == name; };
   if (std::any_of(parts.terms.begin(), parts.terms.end(), same))
     s.error("", "this material has another term called \"" + name + "\"",
             "terms of a material and of its mix share names: choose another");
   parts.terms.push_back({{name, entry->info.name, entry->info.stores_energy}, weight, entry->read(s, options)});
+  return !entry->info.needs_volumetric;
 }
 
-void read_terms(Section& s, double weight, SumMaterial::Parts& parts) {
+/// True when a term resists changes of volume itself.
+bool read_terms(Section& s, double weight, SumMaterial::Parts& parts) {
   int terms = 0;
+  bool resists = false;
   s.each("terms", "what adds up to the material's energy; the names are yours",
          [&](const std::string& name, Section term) {
            ++terms;
-           read_term(name, term, weight, parts);
+           resists |= read_term(name, term, weight, parts);
          });
   if (terms == 0) s.error("", "no terms, no strength", "add [" + s.path() + ".terms] with at least one law");
+  return resists;
 }
 
 /// Laws in J have their own resistance to changes of volume; the others need a volumetric function.
@@ -70,11 +74,8 @@ void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
   double density = 0;
   s.read("density", density, {.unit = "kg/m^3", .range = positive, .required = true, .doc = "reference density"});
   parts.density += weight * density;
-  const std::size_t first = parts.terms.size();
-  read_terms(s, weight, parts);
-  const auto compressible = [](const WeightedTerm& t) { return t.term->uses().has(Invariant::J); };
-  const bool has_volume = std::any_of(parts.terms.begin() + first, parts.terms.end(), compressible);
-  read_volumetric(s, weight, !has_volume, parts);
+  const bool resists = read_terms(s, weight, parts);
+  read_volumetric(s, weight, !resists, parts);
 }
 
 using Needs = bool (Term::*)() const;

@@ -55,6 +55,9 @@ class Material {
   virtual void term_stress(int term, const PointInput& in, Mat3* P) const = 0;
   /// Stored energy per reference volume [J/m^3] of one term (0 for terms that store none).
   virtual void term_energy(int term, const PointInput& in, double* W) const = 0;
+  /// Stored energy of all terms, volumetric law left out, and the potential of those active terms that have one while
+  /// their activation is held [J/m^3].
+  virtual void potential(const PointInput& in, double* W) const = 0;
   /// Output of fibre points: stretch |F a0|, its rate [1/s] by the rate's own definition, and activation (0 without).
   virtual void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const = 0;
 

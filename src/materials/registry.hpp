@@ -24,7 +24,8 @@ struct LawInfo {
   std::vector<KeyRecord> parameters;
   std::vector<ParameterSet> published;
   bool needs_fibre = false, needs_second_fibre = false, stores_energy = true, uses_rate = false;
-  std::string pulls_at_rest;  ///< why there is stress without deformation; "" when there is none
+  bool needs_volumetric = true;  ///< false for laws that resist changes of volume themselves
+  std::string pulls_at_rest;     ///< why there is stress without deformation; "" when there is none
 };
 
 /// U(ratio) of a volume ratio.
@@ -99,6 +100,10 @@ bool register_law() {
   info.needs_second_fibre = term->needs_second_fibre();
   info.stores_energy = term->stores_energy();
   info.uses_rate = uses.has(Invariant::rate);
+  if constexpr (requires { Law::needs_volumetric; })
+    info.needs_volumetric = Law::needs_volumetric;
+  else
+    info.needs_volumetric = !uses.has(Invariant::J);
   info.kind = !info.stores_energy ? "active" : info.needs_fibre ? "fibre" : "matrix";
   const bool either =
       uses.has(Invariant::I4) && !uses.has_any({Invariant::I5, Invariant::I6, Invariant::I8, Invariant::rate});

@@ -154,6 +154,14 @@ void SumMaterial::term_energy(int term, const PointInput& in, double* W) const {
   }
 }
 
+void SumMaterial::potential(const PointInput& in, double* W) const {
+  std::fill_n(W, in.n, 0.0);
+  for (int first = 0; first < in.n; first += block_size) {
+    const Block block(in, first, used_, parts_, parts_.measure);
+    for (const WeightedTerm& t : parts_.terms) t.term->add_potential(block.points, t.weight, W + first);
+  }
+}
+
 void SumMaterial::fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const {
   double active = 0;
   for (const WeightedTerm& t : parts_.terms) active = std::max(active, t.term->activation(in.time));

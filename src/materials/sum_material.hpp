@@ -43,6 +43,7 @@ class SumMaterial final : public Material {
   void stress(const PointInput& in, Mat3* P, Mat9* A) const override;
   void term_stress(int term, const PointInput& in, Mat3* P) const override;
   void term_energy(int term, const PointInput& in, double* W) const override;
+  void potential(const PointInput& in, double* W) const override;
   void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const override;
   Volumetric volumetric(double ratio) const override;
 

@@ -45,6 +45,10 @@ class Term {
   virtual void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const = 0;
   /// Adds weight times the energy [J/m^3]; nothing for a term that stores none.
   virtual void add_energy(const PointBlock& points, double weight, double* sum) const = 0;
+  /// The same for a term that does work but derives from a potential while its activation is held.
+  virtual void add_potential(const PointBlock& points, double weight, double* sum) const {
+    add_energy(points, weight, sum);
+  }
   virtual double activation(double /*time*/) const { return 0; }
 };
 
@@ -159,6 +163,13 @@ class FibreTerm final : public Term {
   void add_energy(const PointBlock& points, double weight, double* sum) const override {
     if constexpr (StoringFibreLaw<Law>)
       for (int p = 0; p < points.n; ++p) sum[p] += weight * law_.energy(std::sqrt(1 + points.excess[index(slot_)][p]));
+  }
+  void add_potential(const PointBlock& points, double weight, double* sum) const override {
+    if constexpr (requires { law_.potential(1.0, 0.0); })
+      for (int p = 0; p < points.n; ++p)
+        sum[p] += weight * law_.potential(std::sqrt(1 + points.excess[index(slot_)][p]), points.time);
+    else
+      add_energy(points, weight, sum);
   }
   double activation(double time) const override {
     if constexpr (requires { law_.activation(time); })

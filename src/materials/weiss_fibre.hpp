@@ -1,10 +1,12 @@
 /// Collagen fibres of ligament and tendon after Weiss: Kirchhoff stress sigma = lambda dW/dlambda [Pa] with
 ///   0 below stretch 1,  c3 (exp(c4 (lambda - 1)) - 1) while they uncrimp,  c5 lambda + c6 from lambda_straight on,
-/// c6 such that sigma is continuous. Weiss, Maker & Govindjee (1996), Comput. Methods Appl. Mech. Eng. 135, 107.
-/// The matrix is a term of its own (mooney_rivlin or neo_hookean).
+/// c6 such that sigma is continuous; without c5 its slope is, too, which are the fibres of Blemker's tendon. Weiss,
+/// Maker & Govindjee (1996), Comput. Methods Appl. Mech. Eng. 135, 107. The matrix is a term of its own (mooney_rivlin
+/// or neo_hookean).
 #pragma once
 
 #include "materials/registry.hpp"
+#include "math/quadrature.hpp"
 
 namespace titin {
 
@@ -23,7 +25,10 @@ struct WeissFibre {
   void bind(Section& s) {
     s.read("c3", c3, {.unit = "Pa", .range = positive, .required = true, .doc = "stress scale while fibres uncrimp"});
     s.read("c4", c4, {.range = positive, .required = true, .doc = "how fast they uncrimp"});
-    s.read("c5", c5, {.unit = "Pa", .range = positive, .required = true, .doc = "modulus of straight fibres"});
+    s.read("c5", c5,
+           {.unit = "Pa",
+            .range = non_negative,
+            .doc = "modulus of straight fibres; 0: that which they have when they become straight"});
     s.read("lambda_straight", lambda_straight,
            {.range = {.min = 1, .open_min = true}, .required = true, .doc = "stretch from which fibres are straight"});
   }
@@ -32,18 +37,21 @@ struct WeissFibre {
     using std::expm1;
     if (stretch <= 1.0) return 0.0;
     if (stretch < lambda_straight) return c3 * expm1(c4 * (stretch - 1.0));
-    return c5 * stretch + c6();
+    return modulus() * stretch + offset();
   }
   double energy(double stretch) const {
     if (stretch <= 1) return 0;
     const double crimped = std::min(stretch, lambda_straight);
-    const double exponential = std::exp(-c4) * (std::expint(c4 * crimped) - std::expint(c4));
-    const double straight = c5 * (stretch - crimped) + c6() * std::log(stretch / crimped);
-    return c3 * (exponential - std::log(crimped)) + straight;
+    const auto uncrimping = [&](double strain) { return std::expm1(c4 * strain) / (1 + strain); };
+    const int panels = 1 + static_cast<int>(c4 * (crimped - 1));  // one for each power of e: round-off
+    const double curved = c3 * integrate(uncrimping, 0, crimped - 1, panels);
+    const double straight = modulus() * (stretch - crimped) + offset() * std::log(stretch / crimped);
+    return curved + straight;
   }
 
  private:
-  double c6() const { return c3 * std::expm1(c4 * (lambda_straight - 1)) - c5 * lambda_straight; }
+  double modulus() const { return c5 > 0 ? c5 : c3 * c4 * std::exp(c4 * (lambda_straight - 1)); }
+  double offset() const { return c3 * std::expm1(c4 * (lambda_straight - 1)) - modulus() * lambda_straight; }
 };
 TITIN_LAW(WeissFibre)
 

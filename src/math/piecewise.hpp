@@ -4,6 +4,7 @@
 /// or along its tangent.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -30,23 +31,12 @@ struct Piecewise {
     return horner(coefficients[i], x - breaks[i]);
   }
 
+  /// The integral of p(x) from `from` to `to`.
+  double integral(double from, double to) const { return sum_parts(polynomial_integral, from, to); }
+
   /// The integral of p(x) / x from `from` to `to` (both > 0), in closed form: the energy that a fibre stores whose
   /// Kirchhoff stress is p of its stretch.
-  double integral_over_x(double from, double to) const {
-    if (to < from) return -integral_over_x(to, from);
-    double sum = 0, left = from;
-    if (left < breaks.front()) {
-      const double right = std::min(to, breaks.front());
-      sum += outside_over_x(0, breaks.front(), below, left, right);
-      left = right;
-    }
-    for (int i = 0; i < pieces && left < to; ++i) {
-      const double right = std::min(to, breaks[i + 1]);
-      if (right > left) sum += polynomial_over_x(coefficients[i], breaks[i], left, right), left = right;
-    }
-    if (left < to) sum += outside_over_x(pieces - 1, breaks.back(), above, left, to);
-    return sum;
-  }
+  double integral_over_x(double from, double to) const { return sum_parts(polynomial_over_x, from, to); }
 
  private:
   int piece(double x) const {
@@ -72,8 +62,27 @@ struct Piecewise {
   T outside(const T& x, int i, double end, Continuation how) const {
     return horner(tangent(i, end, how), x - end);
   }
-  double outside_over_x(int i, double end, Continuation how, double from, double to) const {
-    return polynomial_over_x(tangent(i, end, how), end, from, to);
+  /// Sum of part(polynomial, its origin, left, right) over the pieces between `from` and `to`.
+  template <class Part>
+  double sum_parts(Part part, double from, double to) const {
+    if (to < from) return -sum_parts(part, to, from);
+    double sum = 0;
+    const auto take = [&](const Polynomial& p, double origin, double left, double right) {
+      if (right > left) sum += part(p, origin, left, right);
+    };
+    take(tangent(0, breaks.front(), below), breaks.front(), from, std::min(to, breaks.front()));
+    for (int i = 0; i < pieces; ++i)
+      take(coefficients[i], breaks[i], std::max(from, breaks[i]), std::min(to, breaks[i + 1]));
+    take(tangent(pieces - 1, breaks.back(), above), breaks.back(), std::max(from, breaks.back()), to);
+    return sum;
+  }
+  static double primitive(const Polynomial& p, double s) {
+    double sum = 0;
+    for (int k = degree; k >= 0; --k) sum = (sum + p[k] / (k + 1)) * s;
+    return sum;
+  }
+  static double polynomial_integral(const Polynomial& p, double b, double from, double to) {
+    return primitive(p, to - b) - primitive(p, from - b);
   }
   /// With s = x - b: p(s) = q(s) (s + b) + r, so that p/x integrates to the integral of q and r ln x.
   static double polynomial_over_x(const Polynomial& p, double b, double from, double to) {
@@ -83,12 +92,7 @@ struct Piecewise {
       q[k] = r;
       r = p[k] - b * r;
     }
-    const auto primitive = [&](double s) {
-      double sum = 0;
-      for (int k = degree - 1; k >= 0; --k) sum = (sum + q[k] / (k + 1)) * s;
-      return sum;
-    };
-    return primitive(to - b) - primitive(from - b) + r * std::log(to / from);
+    return primitive(q, to - b) - primitive(q, from - b) + r * std::log(to / from);
   }
 };
 

@@ -22,12 +22,12 @@ inline MaterialPointer material(const std::string& lines) {
   return m;
 }
 
-/// A material of one law, with fibres along (0.8, 0.36, 0.48).
+/// A material of one law, with fibres along (0.8, 0.36, 0.48) and a second family across them.
 inline MaterialPointer material_of(const std::string& law, const std::string& parameters,
                                    const std::string& more = "") {
   const std::string comma = parameters.empty() ? "" : ", ";
   return material(
-      "density = \"1000 kg/m^3\"\nfibre = [0.8, 0.36, 0.48]\n"
+      "density = \"1000 kg/m^3\"\nfibre = [0.8, 0.36, 0.48]\nsecond_fibre = [0.36, -0.8, 0]\n"
       "volumetric = { law = \"simo\", bulk_modulus = \"1 MPa\" }\n" +
       more + "[materials.m.terms]\nt = { law = \"" + law + "\"" + comma + parameters + " }\n");
 }

@@ -90,6 +90,49 @@ const std::map<std::string, Terms>& models() {
          return term("m", "mooney_rivlin", e, {{"c1", "C1"}, {"c2", "C2"}}) +
                 term("f", "weiss_fibre", e, {{"c3", "C3"}, {"#c4", "C4"}, {"c5", "C5"}, {"#lambda_straight", "lam_m"}});
        }},
+      {"goh2",
+       [](const Json& e) {
+         const std::string fibres =
+             term("f", "goh", e, {{"k1", "k1"}, {"#k2", "k2"}, {"#kappa", "kappa"}, {"#switch", "switch"}});
+         const std::string keys = fibres.substr(fibres.find("law"), fibres.rfind(" }") - fibres.find("law"));
+         const std::string second = fmt::format("s = {{ family = \"second\", {} }}\n", keys);
+         return fmt::format("m = {{ law = \"neo_hookean\", mu = {} }}\n",
+                            quantity(2 * e["params"]["C10"].get<double>(), e)) +
+                fibres + second;
+       }},
+      {"holzapfel_ogden",
+       [](const Json& e) {
+         return term("m", "holzapfel_ogden", e,
+                     {{"a", "a"},
+                      {"#b", "b"},
+                      {"af", "af"},
+                      {"#bf", "bf"},
+                      {"as", "as"},
+                      {"#bs", "bs"},
+                      {"afs", "afs"},
+                      {"#bfs", "bfs"}});
+       }},
+      {"guccione",
+       [](const Json& e) {
+         return term("m", "guccione", e, {{"c", "C"}, {"#bf", "bf"}, {"#bt", "bt"}, {"#bfs", "bfs"}});
+       }},
+      {"blemker_muscle",
+       [](const Json& e) {
+         return term("m", "blemker_shear", e, {{"g1", "G1"}, {"g2", "G2"}}) +
+                term("p", "blemker_passive", e,
+                     {{"peak_stress", "smax"},
+                      {"#optimal_stretch", "Lofl"},
+                      {"#p1", "P1"},
+                      {"#p2", "P2"},
+                      {"#lambda_straight", "lam_star"}}) +
+                term("a", "blemker_active", e,
+                     {{"peak_stress", "smax"}, {"#optimal_stretch", "Lofl"}, {"#activation", "act"}});
+       }},
+      {"blemker_tendon",
+       [](const Json& e) {
+         return term("m", "blemker_shear", e, {{"g1", "G1"}, {"g2", "G2"}}) +
+                term("f", "weiss_fibre", e, {{"c3", "L1"}, {"#c4", "L2"}, {"#lambda_straight", "lam_star"}});
+       }},
   };
   return all;
 }
@@ -107,7 +150,12 @@ MaterialPointer material_of(const Json& entry) {
   if (p.contains("K"))
     text += fmt::format("volumetric = {{ law = \"{}\", bulk_modulus = {} }}\n", p.value("vol", "simo"),
                         quantity(p["K"], entry));
-  if (p.contains("a0")) text += "fibre = " + p["a0"].dump() + "\n";
+  for (const char* key : {"a0", "f0"})
+    if (p.contains(key)) text += "fibre = " + p[key].dump() + "\n";
+  if (p.contains("s0")) text += "second_fibre = " + p["s0"].dump() + "\n";
+  if (p.contains("fibres"))
+    text += "fibre = " + p["fibres"][0].dump() + "\nsecond_fibre = " + p["fibres"][1].dump() + "\n";
+  if (p.value("aniso", "iso") == "full") text += "fibre_invariants = \"full\"\n";
   return material(text + "[materials.m.terms]\n" + terms(entry));
 }
 

@@ -27,6 +27,14 @@ const std::map<std::string, std::vector<std::string>>& more_parameters() {
       {"st_venant_kirchhoff", {R"(mu = "10 kPa", lambda = "40 kPa")"}},
       {"holmes_mow", {R"(mu = "0.2 MPa", lambda = "0.1 MPa", beta = 1.1)"}},
       {"linear_fibre", {R"(stiffness = "200 kPa")"}},
+      {"goh",
+       {R"(k1 = "2.4 kPa", k2 = 0.84, kappa = 0.1)", R"(k1 = "2.4 kPa", k2 = 0.84, kappa = 0.1, switch = "I4")",
+        R"(k1 = "2.4 kPa", k2 = 0.84, switch = "none", family = "second")"}},
+      {"blemker_passive",
+       {R"(peak_stress = "300 kPa", optimal_stretch = 1, p1 = 0.05, p2 = 6.6, lambda_straight = 1.4)",
+        R"(peak_stress = "300 kPa", optimal_stretch = 1, p1 = 0.05, p2 = 6.6, lambda_straight = 1.05)"}},
+      {"gent", {R"(mu = "10 kPa", limit = 20)"}},
+      {"arruda_boyce", {R"(mu = "10 kPa", locking_stretch = 1.8)"}},
       {"collagen_table", {R"(stress_scale = "200 kPa", stress_free_rest = true)"}},
   };
   return sets;
@@ -77,6 +85,7 @@ constexpr FibreRate rates[] = {FibreRate::none, FibreRate::stretch_difference, F
 /// Smallest order with which an error falls when its step is halved, from three steps.
 double order(const std::function<double(double h)>& error, double h = 8e-3) {
   const double e[] = {error(h), error(h / 2), error(h / 4)};
+  if (e[0] == 0) return std::numeric_limits<double>::infinity();  // a slack fibre
   return std::min(std::log2(e[0] / e[1]), std::log2(e[1] / e[2]));
 }
 
@@ -140,7 +149,7 @@ TEST(EveryLaw, IsObjective) {
       Point turned = at;
       turned.F = multiply(Q, at.F), turned.F_old = multiply(Q, at.F_old);
       const Mat3 P = stress(*m, at);
-      EXPECT_LT(distance(stress(*m, turned), multiply(Q, P)), round_off * size_of(P));
+      EXPECT_LE(distance(stress(*m, turned), multiply(Q, P)), round_off * size_of(P));
     });
 }
 

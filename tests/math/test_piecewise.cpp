@@ -56,5 +56,12 @@ TEST(Piecewise, IntegralOverXIsExactOnPiecesAndOutside) {
   EXPECT_NEAR(curve.integral_over_x(4, 0.5), -whole, tolerance);
 }
 
+TEST(Piecewise, IntegralAddsPiecesAndContinuations) {
+  EXPECT_NEAR(curve.integral(0.5, 1), 0, round_off);
+  EXPECT_NEAR(curve.integral(1, 2), 1.0 / 3, round_off);
+  EXPECT_NEAR(curve.integral(0.5, 3), 1.0 / 3 + 1 + 1 + 0.25, round_off);
+  EXPECT_NEAR(curve.integral(4, 3), -(4 + 2.5), round_off);
+}
+
 }  // namespace
 }  // namespace titin
