@@ -232,7 +232,7 @@ void SceneText::forget(const std::string& table) {
 
 void SceneText::unknown(const std::string& table, const toml::key& key) {
   const std::string path = join_path(table, key.str());
-  std::string meant = nearest(key.str(), known[table]), advice;
+  std::string meant = nearest(key.str(), known[table]), elsewhere, advice;
   if (!meant.empty()) {  // then that one is misspelt, not missing
     const std::string right = join_path(table, meant);
     std::erase_if(complaints, [&](const Complaint& c) {
@@ -240,9 +240,11 @@ void SceneText::unknown(const std::string& table, const toml::key& key) {
     });
   }
   for (const auto& [other, names] : known)
-    if (meant.empty() && contains(names, key.str())) meant = join_path(other, key.str());
+    if (contains(names, key.str())) elsewhere = join_path(other, key.str());
   if (!meant.empty())
     advice = fmt::format("did you mean \"{}\"?", meant);
+  else if (!elsewhere.empty())
+    advice = fmt::format("did you mean {}?", elsewhere);
   else if (!known[table].empty())
     advice = fmt::format("known here: {}", fmt::join(known[table], ", "));
   else

@@ -116,7 +116,7 @@ TEST(Config, SaysDidYouMean) {
             Messages{"block.toml:2:1: time.endd: unknown key; did you mean \"end\"?"});
   EXPECT_EQ(errors("[tiem]\nend = \"0.5 s\"\n"), Messages{"block.toml:1:2: tiem: unknown key; did you mean \"time\"?"});
   EXPECT_EQ(errors("step = \"1 s\"\n" + time_table),
-            Messages{"block.toml:1:1: step: unknown key; did you mean \"time.step\"?"});
+            Messages{"block.toml:1:1: step: unknown key; did you mean time.step?"});
   EXPECT_EQ(errors(time_table + "viscosity = 3\n"),
             Messages{"block.toml:3:1: time.viscosity: unknown key; known here: end, step, cuts"});
   EXPECT_EQ(errors(time_table + "[boundary.\"x+\"]\ndisplacment = \"1 mm\"\n"),

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Gives titin bad input and holds its answers to the exact words, exit code and files of cases.toml.
+
+    run_messages.py TITIN [--only PART-OF-A-NAME] [--print]     --print shows every message, to be read aloud
+
+Each case runs in a folder of its own that holds block.toml, as
+
+    titin ARGUMENTS     (default: run block.toml SET...)
+
+    [[case]]
+    name = "..."
+    set = ["key=value"]            # overrides
+    edit = [["old", "new"]]        # replacements in block.toml
+    files = { "name" = "text" }    # more files
+    arguments = ["keys", "tme"]    # instead of run block.toml
+    ranks = 2                      # under mpirun
+    signal = "TERM"                # sent when the history has grown
+    exit = 1                       # the default
+    errors = ["..."]               # all of stderr; "<any>" stands for any text, "<here>" for the case's folder
+    output = "..."                 # a part of stdout
+    writes = ["results/..."]       # files that must be there after; none but these may be new ("results/...*": any)
+    report = { status = "..." }    # in results/block/run.json
+"""
+import argparse
+import fnmatch
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+
+HERE = pathlib.Path(__file__).resolve().parent
+MPI_ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+}  # fmt: skip
+LONGEST = 60  # [s] for one case; most take a fraction of a second
+
+
+def prepare(case, folder):
+    scene = (HERE / "block.toml").read_text()
+    for old, new in case.get("edit", []):
+        if old not in scene:
+            sys.exit(f"{case['name']}: block.toml has no {old!r}")
+        scene = scene.replace(old, new)
+    (folder / "block.toml").write_text(scene)
+    for name, text in case.get("files", {}).items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text.encode("latin-1"))  # so that cases can hold bytes that are not UTF-8
+
+
+def contents(folder):
+    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def wait_for_steps(folder, process):
+    """Until the history holds a step, or the run has ended."""
+    history = folder / "results/block/history.csv"
+    while process.poll() is None and not (history.exists() and history.read_text().count("\n") > 2):
+        time.sleep(0.01)
+
+
+def run(case, titin, folder):
+    command = [str(titin), *case.get("arguments", ["run", "block.toml"]), *case.get("set", [])]
+    if case.get("ranks", 1) > 1:
+        command = ["mpirun", "--quiet", "-np", str(case["ranks"]), *command]
+    process = subprocess.Popen(command, cwd=folder, env=os.environ | MPI_ENVIRONMENT, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+    if "signal" in case:
+        wait_for_steps(folder, process)
+        process.send_signal(signal.Signals["SIG" + case["signal"]])
+    try:
+        out, err = process.communicate(timeout=LONGEST)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        out, err = process.communicate()
+    return process.returncode, out, err.rstrip("\n").replace(str(folder), "<here>")
+
+
+def same(text, wanted):
+    pattern = ".*".join(re.escape(part) for part in wanted.split("<any>"))
+    return re.fullmatch(pattern, text) is not None
+
+
+def wrong_files(case, before, after):
+    allowed = case.get("writes", [])
+    for name, bytes_before in before.items():
+        if after.get(name) != bytes_before:
+            yield f"touched {name}"
+    for name in after.keys() - before.keys():
+        if not any(fnmatch.fnmatchcase(name, pattern) for pattern in allowed):
+            yield f"wrote {name}"
+    for pattern in allowed:
+        if not fnmatch.filter(after, pattern):
+            yield f"did not write {pattern}"
+
+
+def complaints(case, titin, folder):
+    """What is wrong with titin's answer."""
+    prepare(case, folder)
+    before = contents(folder)
+    code, out, err = run(case, titin, folder)
+    if "--print" in sys.argv:
+        print(f"\n{case['name']}\n{err}")
+    after = contents(folder)
+    if code != case.get("exit", 1):
+        yield f"exit code {code}, not {case.get('exit', 1)}"
+    wanted = "\n".join(case.get("errors", []))
+    if not same(err, wanted):
+        yield f"said:\n{err}\nnot:\n{wanted}"
+    if case.get("output", "") not in out:
+        yield f"printed:\n{out}\nwithout:\n{case['output']}"
+    yield from wrong_files(case, before, after)
+    if "report" in case:
+        report = json.loads(after.get("results/block/run.json", b"{}"))
+        yield from (f"run.json: {k} is {report.get(k)!r}" for k, v in case["report"].items() if report.get(k) != v)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Holds titin's messages to cases.toml.")
+    parser.add_argument("titin", type=pathlib.Path)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--print", action="store_true")
+    arguments = parser.parse_args()
+    cases = [c for c in tomllib.loads((HERE / "cases.toml").read_text())["case"] if arguments.only in c["name"]]
+    failed = 0
+    for case in cases:
+        with tempfile.TemporaryDirectory(prefix="titin_messages_") as folder:
+            wrong = list(complaints(case, arguments.titin.resolve(), pathlib.Path(folder)))
+        failed += bool(wrong)
+        for text in wrong:
+            print(f"WRONG  {case['name']}: {text}", flush=True)
+    print(f"{len(cases) - failed} of {len(cases)} messages are right")
+    sys.exit(0 if cases and not failed else 1)
+
+
+if __name__ == "__main__":
+    main()
