@@ -118,8 +118,9 @@ class Run {
       logging::info("{}; trying {:.4g} s", failure, clock_.dt());
       return true;
     }
-    summary_.reason = fmt::format("{}; the step was halved {} in a row (time.max_cuts)", failure,
-                                  count(scene_.clock.max_cuts, "time"));
+    summary_.reason = fmt::format(
+        "{}; the step was halved {} in a row: allow more (time.max_cuts), load more slowly or refine the mesh", failure,
+        count(scene_.clock.max_cuts, "time"));
     return false;
   }
 

@@ -152,7 +152,7 @@ TEST_F(Runs, ThatDoNotConvergeKeepTheirOutput) {
   EXPECT_EQ(fields(), 2);  // the first and the last state that was reached
   const std::string reason = json["reason"];
   EXPECT_NE(reason.find("failed: "), std::string::npos) << reason;
-  EXPECT_NE(reason.find("halved 2 times in a row (time.max_cuts)"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("halved 2 times in a row: allow more (time.max_cuts)"), std::string::npos) << reason;
 }
 
 TEST_F(Runs, StopAfterTheStepWhenAnyRankIsSignalled) {
