@@ -14,6 +14,7 @@
 #include "materials/linear_fibre.hpp"
 #include "materials/mooney_rivlin.hpp"
 #include "materials/neo_hookean.hpp"
+#include "materials/ogden.hpp"
 #include "materials/st_venant_kirchhoff.hpp"
 #include "materials/veronda_westmann.hpp"
 #include "materials/volumetric.hpp"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/config.hpp"
+#include "materials/power_term.hpp"
 #include "materials/term.hpp"
 
 namespace titin {
@@ -87,6 +88,8 @@ std::unique_ptr<Term> make_term(Law law, TermOptions options) {
   if constexpr (requires { law.measure = options.measure; }) law.measure = options.measure;
   if constexpr (InvariantLaw<Law>)
     return std::make_unique<EnergyTerm<Law>>(std::move(law), options.family);
+  else if constexpr (PowerLaw<Law>)
+    return std::make_unique<PowerTerm>(law.powers());
   else
     return std::make_unique<FibreTerm<Law>>(std::move(law), options.family);
 }

@@ -50,6 +50,7 @@ class Block {
     options_ = {measure, rate, in.dt};
     points.n = std::min(block_size, in.n - first);
     points.time = in.time;
+    points.F = in.F + first;
     points.excess[index(Invariant::rate)].fill(0);
     for (int g = 0; g < active_groups(); ++g) set_group(in, parts.fibres, g);
   }
@@ -135,6 +136,7 @@ void SumMaterial::evaluate(const PointInput& in, std::span<const WeightedTerm> t
     Block block(in, first, used, parts_, parts_.measure);
     block.differentiate(terms, A != nullptr);
     block.write(P, A);
+    for (const WeightedTerm& t : terms) t.term->add_stress(block.points, t.weight, P + first, A ? A + first : nullptr);
   }
 }
 

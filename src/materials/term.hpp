@@ -1,6 +1,7 @@
 /// A term of a material's energy, seen from the material: a block of invariants in, a block of derivatives out.
 ///
-/// Laws (one struct, one file) know nothing of this: an adaptor makes any law a term. A law is one of
+/// Laws (one struct, one file) know nothing of this: an adaptor makes any law a term. A law is one of these, or a sum
+/// of powers of principal stretches (materials/power_term.hpp):
 ///   * an energy in invariants: `static constexpr std::array uses{Invariant::I1, ...}` and
 ///     `template <class T> T energy(const Invariants<T>& x) const` [J/m^3], x holding the invariants' excess over rest;
 ///   * a fibre: `static constexpr bool uses_rate` and
@@ -23,7 +24,8 @@ using BlockValues = std::array<double, block_size>;
 /// The invariants of n <= block_size points.
 struct PointBlock {
   int n = 0;
-  double time = 0;  ///< t_n+1 [s]
+  double time = 0;          ///< t_n+1 [s]
+  const Mat3* F = nullptr;  ///< for terms that are not written in invariants
   alignas(64) PerInvariant<BlockValues> excess;
 };
 
@@ -43,6 +45,8 @@ class Term {
   bool needs_second_fibre() const { return uses().has_any({Invariant::I6, Invariant::I8}); }
   /// Adds weight times the derivatives of the energy.
   virtual void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const = 0;
+  /// What is not written in invariants adds weight times its stress and, unless null, its tangent.
+  virtual void add_stress(const PointBlock& /*points*/, double /*weight*/, Mat3* /*P*/, Mat9* /*A*/) const {}
   /// Adds weight times the energy [J/m^3]; nothing for a term that stores none.
   virtual void add_energy(const PointBlock& points, double weight, double* sum) const = 0;
   /// The same for a term that does work but derives from a potential while its activation is held.

@@ -44,6 +44,22 @@ TEST(ReadMaterial, HoldsWhatTheSceneSays) {
   EXPECT_NEAR(activation, 0.5, round_off);
 }
 
+TEST(ReadMaterial, RunsAFibreLawAlongEitherFamily) {
+  const std::string law = "law = \"goh\", k1 = \"1 kPa\", k2 = 1, kappa = 0.1";
+  const std::string directions = "fibre = [1, 0, 0]\nsecond_fibre = [0, 1, 0]\n[materials.m.terms]\n";
+  const MaterialPointer second = material(head + directions + "t = { " + law + ", family = \"second\" }\n");
+  const MaterialPointer first = material(head + "fibre = [0, 2, 0]\n[materials.m.terms]\nt = { " + law + " }\n");
+  const Mat3 F{0.95, 0.1, 0, 0.2, 1.2, 0.1, 0, 0, 1};
+  Mat3 P, Q;
+  second->stress({.n = 1, .F = &F}, &P, nullptr);  // without directions of the points: the material's own
+  first->stress({.n = 1, .F = &F}, &Q, nullptr);
+  EXPECT_GT(size_of(P), 0);
+  EXPECT_LE(distance(P, Q), round_off * size_of(P));
+  const Vec3 own{0, 1, 0}, other{1, 0, 0};
+  second->stress({.n = 1, .F = &F, .fibre = &other, .second_fibre = &own}, &Q, nullptr);
+  EXPECT_EQ(P, Q);
+}
+
 TEST(ReadMaterial, MixesByWeight) {
   const std::string fat = "{ law = \"neo_hookean\", mu = \"260 kPa\" }\n";
   const MaterialPointer own = material(head + base);
@@ -96,6 +112,12 @@ TEST(ReadMaterial, SaysWhatIsWrongAndWhatToDo) {
        "test.toml:10:14: materials.m.mix.terms.base: this material has another term called \"base\"; terms of a "
        "material "
        "and of its mix share names: choose another\n"},
+      {head + "[materials.m.terms]\nt = { law = \"ogden\", mu = \"1, 2 kPa\", alpha = [2] }\n",
+       "test.toml:5:47: materials.m.terms.t.alpha: 1 exponents for 2 moduli; give one for each modulus\n"},
+      {head + "fibre = [1, 0, 0]\n[materials.m.terms]\n"
+              "t = { law = \"goh\", k1 = \"1 kPa\", k2 = 1, kappa = 0.4, family = \"second\" }\n",
+       "test.toml:1:1: materials.m: term \"t\" (goh) needs fibres; add second_fibre = [1, 0, 0], say\n"
+       "test.toml:6:50: materials.m.terms.t.kappa: 0.4 is out of range; allowed: 0 to 0.3333333333333333\n"},
   };
   for (const Wrong& w : inputs) {
     SCOPED_TRACE(w.lines);

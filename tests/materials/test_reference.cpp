@@ -133,6 +133,13 @@ const std::map<std::string, Terms>& models() {
          return term("m", "blemker_shear", e, {{"g1", "G1"}, {"g2", "G2"}}) +
                 term("f", "weiss_fibre", e, {{"c3", "L1"}, {"#c4", "L2"}, {"#lambda_straight", "lam_star"}});
        }},
+      {"ogden",
+       [](const Json& e) {
+         std::string moduli;
+         for (double mu : e["params"]["mu"]) moduli += fmt::format("{}{:.17g}", moduli.empty() ? "" : ", ", mu);
+         return fmt::format("m = {{ law = \"ogden\", mu = \"{} {}\", alpha = {} }}\n", moduli,
+                            e["units"].get<std::string>(), e["params"]["alpha"].dump());
+       }},
   };
   return all;
 }
