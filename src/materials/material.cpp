@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "materials/memory_material.hpp"
 #include "materials/sum_material.hpp"
 
 namespace titin {
@@ -41,7 +42,9 @@ bool read_term(const std::string& name, Section s, double weight, SumMaterial::P
   if (std::any_of(parts.terms.begin(), parts.terms.end(), same))
     s.error("", "this material has another term called \"" + name + "\"",
             "terms of a material and of its mix share names: choose another");
-  parts.terms.push_back({{name, entry->info.name, entry->info.stores_energy}, weight, entry->read(s, options)});
+  std::shared_ptr<const Term> term = entry->read(s, options);
+  parts.terms.push_back(
+      {{name, entry->info.name, entry->info.stores_energy}, weight, std::move(term), read_wrappers(s)});
   return !entry->info.needs_volumetric;
 }
 
@@ -129,7 +132,7 @@ std::shared_ptr<const Material> Material::read(Section s) {
   read_constituent(s, 1 - share, parts);
   if (mixed) read_constituent(s.section("mix"), share, parts);
   read_fibres(s, parts);
-  return std::make_shared<SumMaterial>(std::move(parts));
+  return with_memory(std::move(parts));
 }
 
 }  // namespace titin

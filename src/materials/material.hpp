@@ -5,6 +5,7 @@
 /// tensors once.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,12 +27,15 @@ struct PointInput {
   double dt = 0;    ///< [s]; a rate needs dt > 0
   FibreRate rate = FibreRate::none;
   const Vec3* second_fibre = nullptr;  ///< [n] of the second family; null: the material's own
+  const double* history = nullptr;     ///< [n][history_size] at t_n; null: points at rest until now
+  double* new_history = nullptr;       ///< the same at t_n+1, written by `stress`; may be null
 };
 
 /// What a term of a material is called and whether it stores energy (the others do work: active stress).
 struct TermInfo {
   std::string name, law;
   bool stores_energy = true;
+  bool dissipates = false;
 };
 
 class Material {
@@ -60,6 +64,16 @@ class Material {
   virtual void potential(const PointInput& in, double* W) const = 0;
   /// Output of fibre points: stretch |F a0|, its rate [1/s] by the rate's own definition, and activation (0 without).
   virtual void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const = 0;
+
+  /// Doubles of history that a point carries from step to step (viscosity, damage); what they are is the material's
+  /// affair.
+  virtual int history_size() const { return 0; }
+  /// The history of one point at rest; `rest` holds its F = I and its fibres.
+  virtual void start_history(const PointInput& /*rest*/, double* /*row*/) const {}
+  /// Energy that a term has dissipated since the start [J/m^3], from rows of history.
+  virtual void term_dissipation(int /*term*/, int n, const double* /*history*/, double* D) const {
+    std::fill_n(D, n, 0.0);
+  }
 
   struct Volumetric {
     double U, dU, d2U;  ///< energy [J/m^3] of a volume ratio and its derivatives [Pa]

@@ -9,6 +9,7 @@
 
 #include "materials/material.hpp"
 #include "materials/registry.hpp"
+#include "materials/response.hpp"
 
 namespace titin {
 
@@ -16,6 +17,7 @@ struct WeightedTerm {
   TermInfo info;
   double weight = 1;
   std::shared_ptr<const Term> term;
+  std::vector<Wrapper> wrappers;  ///< what gives it a memory, inner first (materials/memory_material.hpp)
 };
 struct WeightedVolumetric {
   double weight = 1;
