@@ -14,7 +14,6 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
       collection_(config_.order, 3),
       space_(mesh_.mesh.get(), &collection_, 3, mfem::Ordering::byVDIM),
       system_(config_, mesh_, space_),
-      newton_(config_.newton, system_, system_.matrix()),
       history_(system_),
       fields_(system_),
       u_(space_.GetTrueVSize()),
@@ -23,17 +22,30 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
   u_ = v_ = trial_ = 0.0;
   mfem::Vector R(system_.size());
   system_.residual(u_, R);
-  history_.update(u_, v_, system_.step());
+  follow(system_.step());
+}
+
+Newton& Muscle::newton() {
+  if (!newton_) newton_ = std::make_unique<Newton>(config_.newton, system_, system_.matrix());
+  return *newton_;
+}
+
+void Muscle::follow(const StepState& step) {
+  history_.update(u_, v_, step);
+  quantities_ = history_.quantities();
+  conservation_.update(quantities_);
 }
 
 Step Muscle::advance(double dt) {
+  if (remember_) system_.history().commit();  // not before: outputs of the accepted step ask for what led to it
+  remember_ = false;
   Step step;
   step.time = time_ + dt;
   step.dt = dt;
   system_.step() = {step.time, dt, u_, v_};
   step.failure = predict(step);
   if (!step.ok()) return step;
-  const NewtonResult result = newton_.solve(trial_);
+  const NewtonResult result = newton().solve(trial_);
   step.newton += result.iterations;
   step.krylov += result.krylov;
   step.residual = result.residual;
@@ -74,11 +86,12 @@ std::string Muscle::predict_from(const mfem::Vector& start, Step& step) {
   system_.constraints().set_values(step.time, prescribed);
   for (int dof : system_.constraints().dofs()) lift(dof) = prescribed(dof) - start(dof);
   system_.tangent_with_lift(start, system_.matrix(), lift, R);
-  newton_.linear().matrix_changed();
+  LinearSolver& linear = newton().linear();
+  linear.matrix_changed();
   change = 0.0;
-  const std::string failure = newton_.linear().solve(R, change);
+  const std::string failure = linear.solve(R, change);
   step.newton += 1;
-  step.krylov += newton_.linear().iterations();
+  step.krylov += linear.iterations();
   if (!failure.empty()) return failure;
   trial_ = start;
   trial_ -= change;
@@ -92,7 +105,8 @@ void Muscle::accept() {
   for (int i = 0; i < u_.Size(); ++i) v_(i) = (trial_(i) - u_(i)) / step.dt;
   u_ = trial_;
   time_ = step.time;
-  history_.update(u_, v_, step);
+  remember_ = true;
+  follow(step);
 }
 
 double Muscle::largest_dt() const { return std::numeric_limits<double>::infinity(); }

@@ -64,7 +64,7 @@ void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v, const mf
 }
 
 void MuscleFields::update_points(int cell, const Material& material, const ThreeField& kernel) {
-  const PointInput in = kernel.points(system_.point_input());
+  const PointInput in = kernel.points(system_.point_input(cell));
   std::vector<double> stretch(in.n), rate(in.n), activation(in.n), direction(3 * in.n),
       stress(tensor_components * in.n);
   std::vector<Mat3> P(in.n);

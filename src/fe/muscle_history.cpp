@@ -35,7 +35,7 @@ MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system) {
     std::vector<int> accounts;
     for (const TermInfo& term : material->terms()) {
       accounts.push_back(static_cast<int>(terms_.size()));
-      terms_.push_back({one ? term.name : name + "_" + term.name, term.stores_energy});
+      terms_.push_back({one ? term.name : name + "_" + term.name, term.stores_energy, term.dissipates});
     }
     for (const auto& [attribute, region_material] : config.material_of_region)
       if (region_material == name) terms_of_region_[attribute] = accounts;
@@ -99,12 +99,12 @@ void MuscleHistory::update(const mfem::Vector& u, const mfem::Vector& v, const S
   forces_ = system_.forces();
   kinetic_ = volumetric_ = volume_ = 0;
   for (auto& term : terms_)
-    if (term.stored) term.value = 0;
+    if (term.stored) term.value = term.dissipated = 0;
   for (auto& mean : means_) mean.volume = mean.stretch = mean.pennation = mean.rate = 0;
   const std::vector<double> v_cells = system_.cell_values(v);
   const int n = 3 * system_.tables().nodes();
   system_.for_each_cell(u, step.u_old, [&](int cell, const Material& material, const ThreeField& kernel) {
-    add_cell(cell, material, kernel, kernel.points(system_.point_input()), &v_cells[cell * n]);
+    add_cell(cell, material, kernel, kernel.points(system_.point_input(cell)), &v_cells[cell * n]);
   });
   if (step.dt > 0) add_boundary_work(u, step.u_old);
   if (kinetic_at_start_ < 0) {
@@ -135,7 +135,7 @@ void MuscleHistory::add_cell(int cell, const Material& material, const ThreeFiel
 
 void MuscleHistory::add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in) {
   const auto& accounts = terms_of_region_[system_.space().GetParMesh()->GetAttribute(cell)];
-  std::vector<double> W(in.n);
+  std::vector<double> W(in.n), D(in.n);
   std::vector<Mat3> P(in.n);
   for (std::size_t t = 0; t < accounts.size(); ++t) {
     TermAccount& account = terms_[accounts[t]];
@@ -144,9 +144,11 @@ void MuscleHistory::add_terms(int cell, const Material& material, const ThreeFie
       material.term_energy(term, in, W.data());
     else
       material.term_stress(term, in, P.data());
+    if (account.dissipates) material.term_dissipation(term, in.n, in.new_history, D.data());
     for (int q = 0; q < in.n; ++q) {
       const double w = system_.tables().weight(cell, q);
       if (account.stored) account.value += w * W[q];
+      if (account.dissipates) account.dissipated += w * D[q];
       for (int i = 0; i < 9 && !account.stored; ++i)
         account.value += w * P[q][i] * (kernel.F()[q][i] - kernel.F_old()[q][i]);
     }
@@ -199,6 +201,10 @@ std::vector<Quantity> MuscleHistory::quantities() const {
     const double value = sum(term.value);
     (term.stored ? stored : done) += value;
     list.push_back({(term.stored ? "energy_" : "work_") + term.name, "J", value});
+    if (!term.dissipates) continue;
+    const double dissipated = sum(term.dissipated);
+    done += dissipated;
+    list.push_back({"dissipation_" + term.name, "J", dissipated});
   }
   const double boundary = sum(work_boundary_), body = sum(work_body_);
   list.push_back({"work_boundary", "J", boundary});

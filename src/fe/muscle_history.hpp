@@ -28,11 +28,12 @@ class MuscleHistory {
   const std::string& shown() const { return shown_; }
 
  private:
-  /// A term of a material: what it stores now, or the work it has done (counted as energy put in by the fibres).
+  /// A term of a material: what it stores now and has dissipated, or, for terms that store nothing, the work done on it
+  /// (negative while active fibres shorten).
   struct TermAccount {
     std::string name;
-    bool stored;
-    double value = 0;
+    bool stored, dissipates;
+    double value = 0, dissipated = 0;
   };
   struct Mean {
     std::string name;

@@ -37,14 +37,35 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
     cell_dofs_.insert(cell_dofs_.end(), dofs.begin(), dofs.end());
     materials_.push_back(config.materials.at(config.material_of_region.at(mesh.mesh->GetAttribute(cell))).get());
   }
+  start_history();
   for (mfem::Vector* v : {&step_.u_old, &step_.v_old, &forces_, &body_forces_, &load_forces_}) {
     v->SetSize(space.GetTrueVSize());
     *v = 0.0;
   }
-  create_matrix();
 }
 
 MuscleSystem::~MuscleSystem() { MatDestroy(&K_); }
+
+Mat MuscleSystem::matrix() {
+  if (!K_) create_matrix();
+  return K_;
+}
+
+void MuscleSystem::start_history() {
+  std::vector<int> row_size;
+  for (const Material* material : materials_) row_size.push_back(material->history_size());
+  history_ = History(row_size, tables_.points());
+  PointInput rest;
+  rest.n = 1;
+  rest.F = rest.F_old = &identity;
+  for (int cell = 0; cell < space_.GetNE(); ++cell) {
+    const Vec3 fibre = material(cell).fibre();
+    rest.fibre = &fibre;
+    for (int q = 0; q < tables_.points(); ++q)
+      material(cell).start_history(rest, history_.now(cell) + q * row_size[cell]);
+  }
+  history_.commit();
+}
 
 void MuscleSystem::create_matrix() {
   const int n = 3 * tables_.nodes();
@@ -108,11 +129,13 @@ void MuscleSystem::gather(int cell, const LocalVectors& local) {
   gather(cell, local.u_old, u_old_cell_.data());
 }
 
-PointInput MuscleSystem::point_input() const {
+PointInput MuscleSystem::point_input(int cell) const {
   PointInput in;
   in.time = step_.time;
   in.dt = step_.dt;
   in.rate = step_.dt > 0 ? config_.rate() : FibreRate::none;
+  in.history = history_.old(cell);
+  in.new_history = history_.now(cell);
   return in;
 }
 
@@ -166,7 +189,7 @@ bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mf
   if (!kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data())) return false;
   const int n = 3 * tables_.nodes();
   std::vector<double> internal(n), inertia(n), body(n), load(n);
-  kernel_.add_forces(cell, material(cell), point_input(), internal.data());
+  kernel_.add_forces(cell, material(cell), point_input(cell), internal.data());
   loads_.add(cell, step_.time, u_cell_.data(), load.data(), nullptr);
   add_inertia_and_body(cell, acceleration, inertia.data(), body.data());
   for (int c = 0; c < n; ++c) {
@@ -220,7 +243,7 @@ void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* li
     std::fill_n(block, n * n, 0.0);
     gather(cell, local);
     kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data());
-    kernel_.add_tangent(cell, material(cell), point_input(), block);
+    kernel_.add_tangent(cell, material(cell), point_input(cell), block);
     for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(block[c * n + c]));
     if (loads_.on_cell(cell)) loads_.add(cell, step_.time, u_cell_.data(), unused.data(), block);
     if (moving()) add_inertia_tangent(cell, block);

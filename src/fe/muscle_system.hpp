@@ -13,6 +13,7 @@
 #include "fe/loads.hpp"
 #include "fe/muscle_config.hpp"
 #include "fe/three_field.hpp"
+#include "mesh/history.hpp"
 #include "solve/newton.hpp"
 
 namespace titin {
@@ -41,7 +42,7 @@ class MuscleSystem : public NonlinearSystem {
     assemble(u, K, &lift, &R);
   }
 
-  Mat matrix() const { return K_; }  ///< preallocated; symmetric if it says so
+  Mat matrix();  ///< preallocated, when first asked for; symmetric if it says so. Collective
   StepState& step() { return step_; }
   const Constraints& constraints() const { return constraints_; }
   /// Forces at all dofs at the last residual(): reactions where they are constrained [N].
@@ -62,7 +63,9 @@ class MuscleSystem : public NonlinearSystem {
   const Material& material(int cell) const { return *materials_[cell]; }
   /// Values of a true-dof vector at the nodes of this rank's cells, [3][nodes] a cell.
   std::vector<double> cell_values(const mfem::Vector& v) const;
-  PointInput point_input() const;
+  /// Time, step and history of a cell's points; deform() fills in the rest.
+  PointInput point_input(int cell) const;
+  History& history() { return history_; }
   const CellTables& tables() const { return tables_; }
   mfem::ParFiniteElementSpace& space() { return space_; }
   const MuscleConfig& config() const { return config_; }
@@ -79,6 +82,7 @@ class MuscleSystem : public NonlinearSystem {
   void gather(int cell, const mfem::Vector& local, double* values) const;
   void assemble(const mfem::Vector& u, Mat K, const mfem::Vector* lift, mfem::Vector* R);
   void create_matrix();
+  void start_history();
   void add_inertia_and_body(int cell, const mfem::Vector& acceleration, double* inertia, double* body) const;
   void add_inertia_tangent(int cell, double* K) const;
   void add_lift(int cell, const double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const;
@@ -93,8 +97,9 @@ class MuscleSystem : public NonlinearSystem {
   ThreeField kernel_;
   std::vector<const Material*> materials_;  // of each cell
   std::vector<int> cell_dofs_;              // [cell][3][nodes], local dofs
+  mutable History history_{{}, 0};          // written as stresses are evaluated
   StepState step_;
-  Mat K_ = nullptr;
+  Mat K_ = nullptr;             // large: not there before the first step, so that checking a scene is cheap
   std::vector<double> values_;  // [cell][3 nodes][3 nodes], then one for each constrained dof
   std::vector<double> u_cell_, u_old_cell_;
   mfem::Vector forces_, body_forces_, load_forces_;

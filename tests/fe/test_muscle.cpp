@@ -127,6 +127,46 @@ TEST(Work, OfTheBoundaryIsWhatTheBodyTakesUp) {
   EXPECT_GT(last_error, 0);
 }
 
+TEST(Viscosity, RelaxesAHeldBlockByItsSeriesAndKeepsItsBooks) {
+  const std::string text = symmetry_planes + R"(
+[boundary."x+"]
+displacement.x = { time = "0, 0.1, 100 s", value = "0, 3, 3 mm" }
+[materials.soft]
+density = "1000 kg/m^3"
+volumetric = { law = "simo", bulk_modulus = "500 kPa" }
+[materials.soft.terms]
+base = { law = "neo_hookean", mu = "100 kPa", prony = { strength = [0.5, 0.25], time = "0.2, 1 s" } }
+)" + tight;
+  const auto model = make_block(text);
+  const double dt = 0.05;
+  double peak = 0, last = 0;
+  for (int n = 1; n <= 300; ++n) {
+    if (n % 50 == 0) model->advance(3 * dt), model->rewind();  // a forgotten step must leave no trace
+    const Step step = model->advance(dt);
+    ASSERT_TRUE(step.ok()) << step.failure;
+    EXPECT_LE(step.newton, 5);
+    model->accept();
+    peak = std::max(peak, quantity(*model, "reaction_x+_x"));
+    EXPECT_GE(quantity(*model, "dissipation_base"), last - round_off);
+    last = quantity(*model, "dissipation_base");
+  }
+  const auto elastic =
+      make_block(symmetry_planes + soft_material + tight + "[boundary.\"x+\"]\ndisplacement.x = \"3 mm\"\n");
+  ASSERT_TRUE(elastic->advance(1).ok());
+  elastic->accept();
+  const double long_term = quantity(*elastic, "reaction_x+_x");
+  EXPECT_NEAR(quantity(*model, "reaction_x+_x"), long_term, 1e-5 * long_term) << "15 s are 15 longest relaxation times";
+  EXPECT_GT(peak, 1.4 * long_term);
+  const double work = quantity(*model, "work_boundary");
+  EXPECT_GT(last, 0.01 * work);
+  const auto unbalanced = [&](double step) {
+    const auto loaded = make_block(text);
+    march(*loaded, 0.1, step);
+    return quantity(*loaded, "energy_balance_error");
+  };
+  EXPECT_NEAR(unbalanced(0.005) / unbalanced(0.0025), 2.0, 0.1) << "first order, as the end-point rule of work is";
+}
+
 TEST(Newton, IsQuadraticAndNeedsFewIterations) {
   const std::string text = muscle_material +
                            "[solver]\ntolerance = 1e-12\nlinear_tolerance = 1e-12\n[boundary.\"x-\"]\nclamp = "
