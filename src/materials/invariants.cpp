@@ -75,9 +75,8 @@ Tensor3<T> quadratic_gradient(const Kinematics<T>& k, Invariant a, const T& s, b
 }  // namespace
 
 template <class T>
-Kinematics<T> kinematics(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fibres, InvariantSet used,
-                         const FibreOptions& options) {
-  Kinematics<T> k;
+void deform(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fibres, InvariantSet used,
+            const FibreOptions& options, Kinematics<T>& k) {
   Tensor3<T> H = F;
   for (int i = 0; i < 9; i += 4) H[i] -= 1.0;
   k.F = F;
@@ -87,6 +86,7 @@ Kinematics<T> kinematics(const Tensor3<T>& F, const Tensor3<T>& F_old, const Fib
   k.y = inverse_cbrt(k.J);
   k.Ft = scaled<T>(1.0 / k.J, cofactor(F));
   k.options = options;
+  k.rate = 0;
   if (used.has_any({Invariant::I4, Invariant::I5, Invariant::I8})) {
     k.a0 = fibres.first;
     k.f = multiply(F, k.a0);
@@ -100,7 +100,6 @@ Kinematics<T> kinematics(const Tensor3<T>& F, const Tensor3<T>& F_old, const Fib
     if (options.rate == FibreRate::stretch_difference) set_stretch_difference(k, F_old);
     if (options.rate == FibreRate::velocity_gradient) set_velocity_gradient(k, F_old);
   }
-  return k;
 }
 
 template <class T>
@@ -161,10 +160,10 @@ PerInvariant<Tensor3<T>> gradients(const Kinematics<T>& k, InvariantSet used) {
   return G;
 }
 
-#define TITIN_INSTANTIATE(T)                                                                                 \
-  template Kinematics<T> kinematics(const Tensor3<T>&, const Tensor3<T>&, const FibrePair<T>&, InvariantSet, \
-                                    const FibreOptions&);                                                    \
-  template PerInvariant<T> values(const Kinematics<T>&, InvariantSet);                                       \
+#define TITIN_INSTANTIATE(T)                                                                                         \
+  template void deform(const Tensor3<T>&, const Tensor3<T>&, const FibrePair<T>&, InvariantSet, const FibreOptions&, \
+                       Kinematics<T>&);                                                                              \
+  template PerInvariant<T> values(const Kinematics<T>&, InvariantSet);                                               \
   template PerInvariant<Tensor3<T>> gradients(const Kinematics<T>&, InvariantSet);
 TITIN_INSTANTIATE(double)
 TITIN_INSTANTIATE(Lanes)

@@ -90,10 +90,10 @@ struct FibrePair {
   Vector3<T> first{}, second{};
 };
 
-/// `F_old` and `fibres` are looked at only when `used` says so.
+/// What `used` invariants need of a deformation, into k; `F_old` and `fibres` are looked at only when they do.
 template <class T>
-Kinematics<T> kinematics(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fibres, InvariantSet used,
-                         const FibreOptions& options);
+void deform(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fibres, InvariantSet used,
+            const FibreOptions& options, Kinematics<T>& k);
 
 /// The invariants u0 . C v0 that are quadratic in F, with u = F u0 and v = F v0.
 template <class T>
@@ -120,8 +120,8 @@ PerInvariant<Tensor3<T>> gradients(const Kinematics<T>& k, InvariantSet used);
 /// used.
 template <class T>
 struct EnergyDerivatives {
-  PerInvariant<T> first{};
-  PerPair<T> second{};
+  PerInvariant<T> first;  // not set to zero: only those of used invariants are looked at
+  PerPair<T> second;
 };
 
 /// Where the rate is a function of I4 (stretch difference), its derivatives become derivatives by I4: W_44 += W_4r

@@ -88,13 +88,13 @@ class Block {
 
   void set_group(const PointInput& in, const FibrePair<double>& own, int g) {
     const int p = first_ + g * lane_count;
-    Tensor3<Lanes> F_old{};
+    Tensor3<Lanes> F_old;
     FibrePair<Lanes> fibres;
     if (used_.has(Invariant::rate)) F_old = gather_all(in.F_old, p, end_);
     if (used_.has_any({Invariant::I4, Invariant::I5, Invariant::I8}))
       fibres.first = directions(in.fibre, own.first, p, end_);
     if (used_.has_any({Invariant::I6, Invariant::I8})) fibres.second = directions(in.second_fibre, own.second, p, end_);
-    kinematics_[g] = kinematics(gather_all(in.F, p, end_), F_old, fibres, used_, options_);
+    deform(gather_all(in.F, p, end_), F_old, fibres, used_, options_, kinematics_[g]);
     const auto v = values(kinematics_[g], used_);
     for (int a = 0; a < invariant_count; ++a)
       if (used_.has(Invariant(a))) v[a].copy_to(&points.excess[a][g * lane_count], std::experimental::element_aligned);

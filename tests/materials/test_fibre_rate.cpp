@@ -33,7 +33,9 @@ Kinematics<double> kinematics_of(const Point& p, FibreMeasure measure) {
   InvariantSet used;
   used.insert(Invariant::I4);
   used.insert(Invariant::rate);
-  return kinematics(p.F, p.F_old, {p.fibre, {}}, used, {measure, p.rate, p.dt});
+  Kinematics<double> k;
+  deform(p.F, p.F_old, {p.fibre, {}}, used, {measure, p.rate, p.dt}, k);
+  return k;
 }
 
 Point moving() { return {.F = general_F, .F_old = general_F_old, .rate = FibreRate::velocity_gradient}; }
