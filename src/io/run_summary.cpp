@@ -28,6 +28,7 @@ std::string RunSummary::json() const {
       {"reason", reason},
       {"title", title},
       {"scene", scene},
+      {"model", model},
       {"version", version()},
       {"commit", commit()},
       {"libraries", libraries},

@@ -10,7 +10,7 @@ namespace titin {
 struct RunSummary {
   std::string status = "running";  ///< running, finished, not_converged, stopped or failed
   std::string reason;              ///< why it is not finished, in words
-  std::string title, scene;
+  std::string title, scene, model;
   std::map<std::string, std::string> libraries;  ///< name -> version
   int ranks = 1;
   long cells = 0, unknowns = 0;

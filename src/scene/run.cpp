@@ -46,6 +46,7 @@ class Run {
       : scene_(scene), folder_(folder_of(options), options.overwrite), clock_(scene.clock) {
     summary_.scene = options.scene_file;
     summary_.title = scene.title;
+    summary_.model = scene.model->name();
     summary_.libraries = library_versions();
     summary_.ranks = ranks();
     summary_.cells = static_cast<long>(scene.model->mesh().GetGlobalNE());
@@ -136,6 +137,8 @@ class Run {
     summary_.steps = clock_.steps();
     summary_.time = clock_.time();
     summary_.newton.cuts = clock_.cuts();
+    for (const Quantity& q : scene_.model->conservation()) summary_.conservation[q.name] = q.value;
+    for (const Quantity& q : scene_.model->errors()) summary_.errors[q.name] = q.value;
     add_costs(summary_);
     folder_.write("run.json", summary_.json());
     log_timers(summary_);
@@ -166,6 +169,7 @@ void check_scene(const RunOptions& options) {
   const double steps = std::ceil(scene.clock.end / scene.clock.step * (1 - 1e-9));
   logging::info("{}: can be run", options.scene_file);
   if (!scene.title.empty()) logging::info("  title     {}", scene.title);
+  logging::info("  model     {}", model.name());
   logging::info("  ranks     {}", ranks());
   logging::info("  cells     {}", model.mesh().GetGlobalNE());
   logging::info("  unknowns  {}", model.unknowns());

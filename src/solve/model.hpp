@@ -34,6 +34,8 @@ class Model {
  public:
   virtual ~Model() = default;
 
+  /// As a scene names it.
+  virtual std::string name() const = 0;
   /// Tries the step from the last accepted state to time() + dt. Collective.
   virtual Step advance(double dt) = 0;
   /// Makes the tried step the accepted state.
@@ -46,6 +48,10 @@ class Model {
 
   /// Of the accepted state. Collective. The same names in the same order at every call.
   virtual std::vector<Quantity> quantities() = 0;
+  /// What the formulation keeps: how far the run was off so far, relative to what it should have kept.
+  virtual std::vector<Quantity> conservation() { return {}; }
+  /// Relative norms of the accepted state's error, where the exact solution is known. Collective.
+  virtual std::vector<Quantity> errors() { return {}; }
   /// Name of the quantity that the line of a step shows.
   virtual std::string shown_quantity() const = 0;
   virtual void update_fields() = 0;

@@ -90,6 +90,9 @@ TEST_F(Runs, FillTheirFolder) {
   EXPECT_EQ(json["time"], 0.1);
   EXPECT_EQ(json["ranks"], ranks());
   EXPECT_EQ(json["newton"]["per_step"].size(), 4u);
+  EXPECT_EQ(json["model"], "muscle");
+  EXPECT_LT(json["conservation"]["energy_balance_error"], 0.2);  // four steps of backward Euler
+  EXPECT_LT(json["conservation"]["volume_change"], 0.05);
   EXPECT_EQ(rows(), 5);
   EXPECT_EQ(fields(), 5);
   EXPECT_NE(text_of("out/run.log").find("finished: 4 steps"), std::string::npos);
