@@ -43,8 +43,9 @@ bool read_term(const std::string& name, Section s, double weight, SumMaterial::P
     s.error("", "this material has another term called \"" + name + "\"",
             "terms of a material and of its mix share names: choose another");
   std::shared_ptr<const Term> term = entry->read(s, options);
+  std::vector<Wrapper> wrappers = read_wrappers(s, !term->needs_fibre() && !term->needs_second_fibre());
   parts.terms.push_back(
-      {{name, entry->info.name, entry->info.stores_energy}, weight, std::move(term), read_wrappers(s)});
+      {{name, entry->info.name, entry->info.stores_energy}, weight, std::move(term), std::move(wrappers)});
   return !entry->info.needs_volumetric;
 }
 

@@ -50,8 +50,8 @@ class ElasticResponse final : public Response {
   std::shared_ptr<const Material> material_;
 };
 
-/// Reads what a term's table says should be wrapped around it, inner first: `prony`, `spectrum` or `fractional`, then
-/// `damage`.
-std::vector<Wrapper> read_wrappers(Section& term);
+/// Reads what a term's table says should be wrapped around it, inner first: `maxwell`, `prony`, `spectrum` or
+/// `fractional`, then `damage`.
+std::vector<Wrapper> read_wrappers(Section& term, bool isotropic);
 
 }  // namespace titin

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "materials/damage.hpp"
+#include "materials/maxwell.hpp"
 #include "materials/response.hpp"
 #include "materials/viscoelastic.hpp"
 
@@ -77,16 +78,26 @@ Wrapper viscoelastic(RelaxationSeries series) {
 
 }  // namespace
 
-std::vector<Wrapper> read_wrappers(Section& term) {
+std::vector<Wrapper> read_wrappers(Section& term, bool isotropic) {
   std::vector<Wrapper> wrappers;
   const auto wants = [&](const char* name) { return term.describing() || term.has(name); };
+  if (wants("maxwell")) {
+    MaxwellFlow flow;
+    Section maxwell = term.section("maxwell", "a finite-strain branch: the term is the spring of a dashpot in series");
+    flow.bind(maxwell);
+    if (!isotropic)
+      term.error("maxwell", "the spring of a Maxwell branch is isotropic", "take prony for laws with fibres");
+    wrappers.push_back([flow](std::shared_ptr<const Response> spring) {
+      return std::make_shared<MaxwellResponse>(flow, std::move(spring));
+    });
+  }
   if (wants("prony")) wrappers.push_back(viscoelastic(read_prony(term.section("prony", "relaxation by branches"))));
   if (wants("spectrum"))
     wrappers.push_back(viscoelastic(read_spectrum(term.section("spectrum", "Fung's continuous relaxation spectrum"))));
   if (wants("fractional"))
     wrappers.push_back(viscoelastic(read_fractional(term.section("fractional", "Caputo's fractional derivative"))));
   if (wrappers.size() > 1 && !term.describing())
-    term.error("", "one of prony, spectrum and fractional at a time", "drop the others");
+    term.error("", "one of maxwell, prony, spectrum and fractional at a time", "drop the others");
   if (wants("damage")) {
     DamageLaw law;
     Section damage = term.section("damage", "softening by the largest energy so far");

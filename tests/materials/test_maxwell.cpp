@@ -1,0 +1,119 @@
+// Finite viscoelasticity: a Maxwell branch with a neo-Hookean spring against accurate integrations of its flow
+// equations.
+#include <gtest/gtest.h>
+
+#include "math/symmetric.hpp"
+#include "memory_for_tests.hpp"
+
+namespace titin {
+namespace {
+
+using namespace testing;
+
+const std::string branch = "mu = \"5 Pa\", maxwell = { viscosity = \"10 Pa s\" }";
+
+Mat3 kirchhoff(const Mat3& P, const Mat3& F) { return multiply(P, transpose(F)); }
+
+Mat3 tau_of(const nlohmann::json& entry) {
+  Mat3 tau;
+  for (int i = 0; i < 9; ++i) tau[i] = entry["tau_neq"][i / 3][i % 3].get<double>();
+  return tau;
+}
+
+double distance(const Mat3& a, const Mat3& b) {
+  double d = 0;
+  for (int i = 0; i < 9; ++i) d = std::max(d, std::abs(a[i] - b[i]));
+  return d;
+}
+
+using Path = Mat3 (*)(double t);
+Mat3 uniaxial(double) { return diagonal(1.3, 1 / std::sqrt(1.3), 1 / std::sqrt(1.3)); }
+Mat3 cyclic_shear(double t) { return {1, 0.4 * std::sin(2 * M_PI * t), 0, 0, 1, 0, 0, 0, 1}; }
+
+/// Kirchhoff stress at `end`; the deformation steps to path(0) at the start.
+Mat3 run(Path path, double end, int steps) {
+  RememberingPoint point(material_of("neo_hookean", branch));
+  point.step(path(0), 0.0);
+  Mat3 P{};
+  for (int n = 1; n <= steps; ++n) P = point.step(path(end * n / steps), end / steps);
+  return kirchhoff(P, path(end));
+}
+
+struct Case {
+  const char* entry;
+  Path path;
+  const char* time;
+};
+
+class Branch : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Branch, ConvergesAtFirstOrderToTheReference) {
+  const auto reference = time_dependent()[GetParam().entry]["values"][GetParam().time];
+  const Mat3 exact = tau_of(reference);
+  const double end = std::stod(GetParam().time);
+  const double coarse = distance(run(GetParam().path, end, 200), exact),
+               fine = distance(run(GetParam().path, end, 400), exact);
+  EXPECT_LT(fine, 0.02);
+  EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.05);
+  // Richardson's extrapolation of a first-order scheme leaves the second order
+  const Mat3 a = run(GetParam().path, end, 200), b = run(GetParam().path, end, 400);
+  Mat3 extrapolated;
+  for (int i = 0; i < 9; ++i) extrapolated[i] = 2 * b[i] - a[i];
+  EXPECT_LT(distance(extrapolated, exact), 2e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Branch,
+                         ::testing::Values(Case{"rg_neohooke_step_uniax", uniaxial, "1"},
+                                           Case{"rg_neohooke_step_uniax", uniaxial, "5"},
+                                           Case{"rg_neohooke_cyclic_shear", cyclic_shear, "0.25"},
+                                           Case{"rg_neohooke_cyclic_shear", cyclic_shear, "0.5"},
+                                           Case{"rg_neohooke_cyclic_shear", cyclic_shear, "2.0"}),
+                         [](const auto& info) { return "case_" + std::to_string(info.index); });
+
+TEST(Branch, StepIsTakenAtOnce) {
+  const auto reference = time_dependent()["rg_neohooke_step_uniax"]["values"]["0"];
+  RememberingPoint point(material_of("neo_hookean", branch));
+  EXPECT_LT(distance(kirchhoff(point.step(uniaxial(0), 0.0), uniaxial(0)), tau_of(reference)), 1e-12);
+}
+
+TEST(Branch, TangentIsExact) {
+  for (double dt : {1e-6, 0.5, 1e6}) {
+    RememberingPoint point(
+        material_of("ogden", "mu = \"2, -1 Pa\", alpha = [2, -3], maxwell = { viscosity = \"10 Pa s\" }"));
+    point.step({1.1, 0.2, 0, 0.05, 0.95, 0, 0, 0.1, 1.0}, 0.5);
+    EXPECT_NEAR(tangent_order(point, {1.2, 0.3, 0.05, 0.0, 0.9, 0.1, 0.05, 0.1, 1.05}, dt), 2.0, 0.1) << dt;
+  }
+  RememberingPoint at_rest(material_of("neo_hookean", branch));  // three equal stretches
+  EXPECT_NEAR(tangent_order(at_rest, identity, 0.5), 2.0, 0.1);
+}
+
+TEST(Branch, DissipatesWhatItDoesNotStore) {
+  RememberingPoint point(material_of("neo_hookean", branch));
+  Mat3 F_old = identity, P_old{};
+  double work = 0, last = 0;
+  const int steps = 4000;
+  for (int n = 1; n <= steps; ++n) {
+    const Mat3 F = cyclic_shear(1.25 * n / steps), P = point.stress(F, 1.25 / steps);
+    for (int i = 0; i < 9; ++i) work += 0.5 * (P[i] + P_old[i]) * (F[i] - F_old[i]);
+    EXPECT_GE(point.dissipated(), last);
+    last = point.dissipated();
+    if (n == steps) EXPECT_NEAR(work, point.stored() + last, 2e-3 * work);  // first order in the step
+    point.take();
+    F_old = F;
+    P_old = P;
+  }
+}
+
+TEST(Branch, HoldsFromTinyToHugeSteps) {
+  for (double dt : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+    RememberingPoint point(material_of("neo_hookean", branch));
+    const Mat3 tau = kirchhoff(point.step(uniaxial(0), dt), uniaxial(0));
+    EXPECT_GT(tau[0], 0) << dt;
+    EXPECT_LE(tau[0], 3.0693) << dt;
+    if (dt > 1e5) EXPECT_LT(tau[0], 1e-4);
+    EXPECT_NEAR(trace(tau), 0, 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace titin
