@@ -82,7 +82,7 @@ void deform(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fi
   k.F = F;
   k.E = green_strain(H);
   k.J_1 = volume_change(H);
-  k.J = 1.0 + k.J_1;
+  k.J = determinant(F);  // not 1 + J_1, which loses the digits of small volumes
   k.y = inverse_cbrt(k.J);
   k.Ft = scaled<T>(1.0 / k.J, cofactor(F));
   k.options = options;

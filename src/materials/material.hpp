@@ -21,10 +21,9 @@ struct PointInput {
   int n = 0;
   const Mat3* F = nullptr;      ///< [n] deformation gradient at t_n+1
   const Mat3* F_old = nullptr;  ///< [n] at t_n; may be null when rate is none
-  const Vec3* fibre =
-      nullptr;      ///< [n] unit fibre directions in the reference configuration; may be null without fibres
-  double time = 0;  ///< t_n+1 [s]: time curves (activation) are taken here
-  double dt = 0;    ///< [s]; a rate needs dt > 0
+  const Vec3* fibre = nullptr;  ///< [n] unit fibre directions in the reference configuration; null: the material's own
+  double time = 0;              ///< t_n+1 [s]: time curves (activation) are taken here
+  double dt = 0;                ///< [s]; a rate needs dt > 0
   FibreRate rate = FibreRate::none;
   const Vec3* second_fibre = nullptr;  ///< [n] of the second family; null: the material's own
   const double* history = nullptr;     ///< [n][history_size] at t_n; null: points at rest until now
