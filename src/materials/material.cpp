@@ -37,13 +37,14 @@ TermOptions read_options(Section& s, const LawEntry* entry, FibreMeasure measure
 bool read_term(const std::string& name, Section s, double weight, SumMaterial::Parts& parts) {
   const LawEntry* entry = choose_law(s, law_entries(), nullptr, "see `titin materials` for the laws and their keys");
   const TermOptions options = read_options(s, entry, parts.measure);
+  if (s.describing()) read_wrappers(s, nullptr, options);
   if (!entry) return false;
   const auto same = [&](const WeightedTerm& t) { return t.info.name == name; };
   if (std::any_of(parts.terms.begin(), parts.terms.end(), same))
     s.error("", "this material has another term called \"" + name + "\"",
             "terms of a material and of its mix share names: choose another");
   std::shared_ptr<const Term> term = entry->read(s, options);
-  std::vector<Wrapper> wrappers = read_wrappers(s, !term->needs_fibre() && !term->needs_second_fibre());
+  std::vector<Wrapper> wrappers = read_wrappers(s, term.get(), options);
   parts.terms.push_back(
       {{name, entry->info.name, entry->info.stores_energy}, weight, std::move(term), std::move(wrappers)});
   return !entry->info.needs_volumetric;

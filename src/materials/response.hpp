@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "materials/material.hpp"
+#include "materials/registry.hpp"
 
 namespace titin {
 
@@ -52,6 +53,6 @@ class ElasticResponse final : public Response {
 
 /// Reads what a term's table says should be wrapped around it, inner first: `maxwell`, `prony`, `spectrum` or
 /// `fractional`, then `damage`.
-std::vector<Wrapper> read_wrappers(Section& term, bool isotropic);
+std::vector<Wrapper> read_wrappers(Section& term, const Term* law, TermOptions options);
 
 }  // namespace titin

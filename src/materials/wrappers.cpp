@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "materials/damage.hpp"
+#include "materials/fibre_maxwell.hpp"
 #include "materials/maxwell.hpp"
 #include "materials/response.hpp"
 #include "materials/viscoelastic.hpp"
@@ -76,21 +77,29 @@ Wrapper viscoelastic(RelaxationSeries series) {
   };
 }
 
+Wrapper read_maxwell(Section s, const Term* term, TermOptions options) {
+  MaxwellFlow flow;
+  flow.bind(s);
+  if (!term) return {};
+  if (term->needs_second_fibre() || term->uses().has(Invariant::rate))
+    s.error("", "the spring of a Maxwell branch is an isotropic law, or one of a single fibre without rate",
+            "take prony for other laws");
+  const bool along_fibres = term->needs_fibre();
+  return [=](std::shared_ptr<const Response> spring) -> std::shared_ptr<const Response> {
+    if (along_fibres) return std::make_shared<FibreMaxwellResponse>(flow.viscosity, options, std::move(spring));
+    return std::make_shared<MaxwellResponse>(flow, std::move(spring));
+  };
+}
+
 }  // namespace
 
-std::vector<Wrapper> read_wrappers(Section& term, bool isotropic) {
+std::vector<Wrapper> read_wrappers(Section& term, const Term* law, TermOptions options) {
   std::vector<Wrapper> wrappers;
   const auto wants = [&](const char* name) { return term.describing() || term.has(name); };
-  if (wants("maxwell")) {
-    MaxwellFlow flow;
-    Section maxwell = term.section("maxwell", "a finite-strain branch: the term is the spring of a dashpot in series");
-    flow.bind(maxwell);
-    if (!isotropic)
-      term.error("maxwell", "the spring of a Maxwell branch is isotropic", "take prony for laws with fibres");
-    wrappers.push_back([flow](std::shared_ptr<const Response> spring) {
-      return std::make_shared<MaxwellResponse>(flow, std::move(spring));
-    });
-  }
+  if (wants("maxwell"))
+    wrappers.push_back(
+        read_maxwell(term.section("maxwell", "a finite-strain branch: the term is the spring of a dashpot in series"),
+                     law, options));
   if (wants("prony")) wrappers.push_back(viscoelastic(read_prony(term.section("prony", "relaxation by branches"))));
   if (wants("spectrum"))
     wrappers.push_back(viscoelastic(read_spectrum(term.section("spectrum", "Fung's continuous relaxation spectrum"))));

@@ -115,5 +115,53 @@ TEST(Branch, HoldsFromTinyToHugeSteps) {
   }
 }
 
+const std::string fibre_branch = "k1 = \"3 Pa\", k2 = 2, maxwell = { viscosity = \"20 Pa s\" }";
+
+/// Stretch by l along the fibre (0.8, 0.36, 0.48) at constant volume.
+Mat3 along_fibre(double l) {
+  const Vec3 a{0.8, 0.36, 0.48};
+  const double m = 1 / std::sqrt(l);
+  Mat3 F;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) F[3 * i + j] = (i == j) * m + (l - m) * a[i] * a[j];
+  return F;
+}
+
+/// Tension tau = 3/2 a . tau a of a deviatoric stress.
+double tension(const Mat3& tau) {
+  const Vec3 a{0.8, 0.36, 0.48};
+  return 1.5 * dot(a, multiply(tau, a));
+}
+
+TEST(FibreBranch, RelaxesAHeldStretchAsIntegrated) {
+  const auto reference = time_dependent()["fibre_maxwell_step"]["tau"];
+  const Mat3 F = along_fibre(1.2);
+  const auto run = [&](double end, int steps) {
+    RememberingPoint point(material_of("goh", fibre_branch));
+    Mat3 P = point.step(F, 0.0);
+    for (int n = 0; n < steps && end > 0; ++n) P = point.step(F, end / steps);
+    return tension(kirchhoff(P, F));
+  };
+  EXPECT_NEAR(run(0, 0), reference["0"].get<double>(), 1e-12);
+  for (const char* time : {"1", "2", "5"}) {
+    const double exact = reference[time], end = std::stod(time);
+    const double coarse = run(end, 400) - exact, fine = run(end, 800) - exact;
+    EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.05) << time;
+    EXPECT_NEAR(2 * run(end, 800) - run(end, 400), exact, 1e-4) << time;
+  }
+}
+
+TEST(FibreBranch, TangentIsExactAndStepsMayBeHuge) {
+  for (const char* measure : {"", "fibre_invariants = \"full\"\n"})
+    for (double dt : {1e-6, 0.5, 1e6}) {
+      RememberingPoint point(material_of("goh", fibre_branch, measure));
+      point.step({1.2, 0.2, 0, 0.05, 1.0, 0, 0, 0.1, 1.1}, 0.5);
+      const Mat3 F{1.4, 0.3, 0.05, 0.0, 1.0, 0.1, 0.05, 0.1, 1.15};
+      if (dt < 1) EXPECT_NEAR(tangent_order(point, F, dt), 2.0, 0.15) << measure << dt;
+      EXPECT_TRUE(std::isfinite(point.step(F, dt)[0]));
+      EXPECT_GE(point.dissipated(), 0);
+    }
+}
+
 }  // namespace
 }  // namespace titin
