@@ -2,6 +2,7 @@
 /// [Pa]. Hill (1938), Proc. R. Soc. B 126, 136; curves: materials/hill_curves.hpp. Does work, stores no energy.
 #pragma once
 
+#include "materials/activation.hpp"
 #include "materials/hill_curves.hpp"
 #include "materials/registry.hpp"
 
@@ -20,7 +21,7 @@ struct HillActive {
                    "Flexodeal Lite 1.5.4, parameters.prm"}};
 
   double peak_stress = 0, max_strain_rate = 0;
-  Table activation;
+  Activation activation;
   HillCurve curve = HillCurve::flexodeal;
 
   void bind(Section& s) {
@@ -31,8 +32,7 @@ struct HillActive {
             .range = positive,
             .required = true,
             .doc = "rate of stretch at which a shortening fibre is unloaded"});
-    s.read("activation", activation,
-           {.range = fraction, .required = true, .doc = "active part of the muscle against time"});
+    activation.bind(s);
     s.choose("curve", curve,
              {{"flexodeal", HillCurve::flexodeal},
               {"flexodeal_smooth", HillCurve::flexodeal_smooth},
