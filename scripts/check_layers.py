@@ -14,6 +14,7 @@ MAY_INCLUDE = {
     "base": [],
     "math": ["base"],
     "materials": ["math", "base"],
+    "point": ["materials", "math", "base"],
     "mesh": ["math", "base"],
     "solve": ["math", "base"],
     "io": ["mesh", "solve", "math", "base"],
@@ -21,7 +22,7 @@ MAY_INCLUDE = {
     "fv": ["solve", "mesh", "materials", "math", "base"],
     "rod": ["solve", "mesh", "materials", "math", "base"],
     "scene": ["fe", "fv", "rod", "io", "solve", "mesh", "materials", "math", "base"],
-    "miniapps": ["scene", "fe", "fv", "rod", "io", "solve", "mesh", "materials", "math", "base"],
+    "miniapps": ["scene", "point", "fe", "fv", "rod", "io", "solve", "mesh", "materials", "math", "base"],
 }
 
 # Libraries that a layer must stay without, by how their headers begin.
@@ -29,6 +30,7 @@ NEVER = {
     "base": ["mfem", "petsc", "HYPRE", "hdf5", "CGAL/"],
     "math": ["mpi.h", "mfem", "petsc", "HYPRE", "hdf5", "toml++", "fmt/", "udunits2", "fstream", "iostream", "CGAL/"],
     "materials": ["mpi.h", "mfem", "petsc", "HYPRE", "hdf5", "toml++", "udunits2", "fstream", "iostream", "CGAL/"],
+    "point": ["mpi.h", "mfem", "petsc", "HYPRE", "hdf5", "toml++", "udunits2", "CGAL/"],
     "mesh": ["petsc", "hdf5", "toml++", "CGAL/"],
     "solve": ["hdf5", "toml++", "CGAL/"],
     "io": ["petsc", "toml++", "CGAL/"],

@@ -25,6 +25,7 @@ struct LawInfo {
   std::vector<KeyRecord> parameters;
   std::vector<ParameterSet> published;
   bool needs_fibre = false, needs_second_fibre = false, stores_energy = true, uses_rate = false;
+  bool has_potential = true;     ///< stores energy, or would while its activation is held
   bool needs_volumetric = true;  ///< false for laws that resist changes of volume themselves
   std::string pulls_at_rest;     ///< why there is stress without deformation; "" when there is none
 };
@@ -103,6 +104,7 @@ bool register_law() {
   info.needs_second_fibre = term->needs_second_fibre();
   info.stores_energy = term->stores_energy();
   info.uses_rate = uses.has(Invariant::rate);
+  info.has_potential = info.stores_energy || requires(Law law) { law.potential(1.0, 0.0); };
   if constexpr (requires { Law::needs_volumetric; })
     info.needs_volumetric = Law::needs_volumetric;
   else
