@@ -1,4 +1,5 @@
 // The muscle formulation against exact answers: patch test, rigid motion, free fall, pressure, uniaxial load, work.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,6 +37,7 @@ TEST(PatchTest, AffineDisplacementLeavesInnerForcesZeroOnBentCells) {
     const double largest = norm_of(R);
     for (int dof : surface) R(dof) = 0;
     EXPECT_GT(largest, 1e-3);
+    fmt::print("patch test, order {}: inner forces {:.1e} of the surface's\n", order, norm_of(R) / largest);
     EXPECT_LT(norm_of(R), round_off * largest) << "order " << order;
   }
 }
@@ -51,6 +53,7 @@ TEST(RigidMotion, RotationLeavesNoStress) {
   mfem::Vector R(u.Size());
   ASSERT_TRUE(model->system().residual(u, R));
   const double typical_force = 1e7 * 1e-4;  // bulk modulus x a face of the block [N]
+  fmt::print("rotation: forces {:.1e} of bulk modulus x face\n", norm_of(R) / typical_force);
   EXPECT_LT(norm_of(R), round_off * typical_force);
 }
 
@@ -175,17 +178,20 @@ TEST(Newton, IsQuadraticAndNeedsFewIterations) {
   const auto steps = march(*model, 0.1, 0.01);
   constexpr double quadratic = 1.8, asymptotic = 1e-2, measurable = 1e-11;
   int measured = 0;
+  double lowest = 1e9;
   for (const Step& step : steps) {
     ASSERT_TRUE(step.ok()) << step.failure;
     EXPECT_LE(step.newton, 8);
     for (std::size_t k = 2; k < step.residuals.size(); ++k) {
       const double r0 = step.residuals[k - 2], r1 = step.residuals[k - 1], r2 = step.residuals[k];
       if (r1 > asymptotic || r2 < measurable) continue;
-      EXPECT_GT(std::log(r2 / r1) / std::log(r1 / r0), quadratic);
+      lowest = std::min(lowest, std::log(r2 / r1) / std::log(r1 / r0));
       ++measured;
     }
   }
+  fmt::print("Newton: lowest order {:.2f} of {} measured\n", lowest, measured);
   EXPECT_GT(measured, 0);
+  EXPECT_GT(lowest, quadratic);
 }
 
 TEST(Failure, IsAValueAndLeavesTheStateAsItWas) {
