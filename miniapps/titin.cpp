@@ -44,7 +44,7 @@ struct Driver {
     run->add_flag("-q", quiet, "Say only warnings and errors");
     materials->add_option("NAME", law, "Name of a law");
     keys->add_option("PREFIX", prefix, "Only keys that begin so, such as time or boundary.");
-    keys->add_flag("--json", json, "As JSON");
+    for (CLI::App* list : {materials, keys}) list->add_flag("--json", json, "As JSON");
   }
 
   int act() {
@@ -54,7 +54,7 @@ struct Driver {
                        : verbosity == 1 ? Level::verbose
                                         : Level::debug);
     if (help->parsed()) logging::write(Level::quiet, Driver().app.help());  // of all, not of "help"
-    if (materials->parsed()) print_materials(law);
+    if (materials->parsed()) print_materials(law, json);
     if (keys->parsed()) print_keys(prefix, json);
     if (check->parsed()) check_scene(options);
     return run->parsed() ? static_cast<int>(titin::run(options)) : 0;

@@ -16,10 +16,6 @@ struct Ogden {
   static constexpr auto formula =
       "W = sum_p mu_p/alpha_p (l1^alpha_p + l2^alpha_p + l3^alpha_p - 3), l_a = J^-1/3 lambda_a";
   static constexpr auto source = "Ogden 1972, Proc. R. Soc. A 326:565";
-  inline static const std::array published{
-      ParameterSet{"vulcanised rubber", R"(mu = "630, 1.2, -10 kPa", alpha = [1.3, 5, -2])", "Ogden 1972"},
-      ParameterSet{"porcine adipose tissue", R"(mu = "0.04 kPa", alpha = [20])",
-                   "Comley & Fleck 2012, Int. J. Solids Struct. 49:2958 (shear modulus 0.4 kPa)"}};
   enum class Normalisation { ogden, abaqus, febio };
 
   std::vector<double> mu, alpha;

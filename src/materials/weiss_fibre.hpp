@@ -16,10 +16,6 @@ struct WeissFibre {
       "lambda dW/dlambda = 0 (lambda < 1), c3 (exp(c4 (lambda - 1)) - 1), c5 lambda + c6 (lambda > lambda_straight)";
   static constexpr auto source = "Weiss, Maker & Govindjee 1996, Comput. Methods Appl. Mech. Eng. 135:107";
   static constexpr bool uses_rate = false;
-  inline static const std::array published{ParameterSet{
-      "human medial collateral ligament", R"(c3 = "0.57 MPa", c4 = 48, c5 = "467.1 MPa", lambda_straight = 1.062)",
-      "Gardiner & Weiss 2003, J. Orthop. Res. 21:1098 (matrix c1 = 1.44 MPa)"}};
-
   double c3 = 0, c4 = 0, c5 = 0, lambda_straight = 0;
 
   void bind(Section& s) {

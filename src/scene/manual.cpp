@@ -62,6 +62,16 @@ void print_law(const LawInfo& law) {
     print(fmt::format("  {}: {} ({})", set.tissue, set.parameters, set.source));
 }
 
+nlohmann::ordered_json json_of(const LawInfo& law) {
+  nlohmann::ordered_json entry = {
+      {"name", law.name}, {"kind", law.kind}, {"formula", law.formula}, {"source", law.source}};
+  entry["parameters"] = entry["published"] = nlohmann::ordered_json::array();
+  for (const KeyRecord& key : law.parameters) entry["parameters"].push_back(json_of(key));
+  for (const ParameterSet& set : law.published)
+    entry["published"].push_back({{"tissue", set.tissue}, {"parameters", set.parameters}, {"source", set.source}});
+  return entry;
+}
+
 }  // namespace
 
 void print_keys(const std::string& prefix, bool json) {
@@ -74,7 +84,13 @@ void print_keys(const std::string& prefix, bool json) {
   print(list.dump(2));
 }
 
-void print_materials(const std::string& name) {
+void print_materials(const std::string& name, bool json) {
+  if (json) {
+    auto list = nlohmann::ordered_json::array();
+    for (const LawInfo& law : laws())
+      if (name.empty() || law.name == name) list.push_back(json_of(law));
+    if (!list.empty()) return print(list.dump(2));
+  }
   Rows rows = {{"law", "kind", "formula"}};
   std::vector<std::string> names;
   for (const LawInfo& law : laws()) {

@@ -7,7 +7,7 @@ namespace titin {
 
 /// Keys whose path begins with `prefix`, as an aligned table or as JSON. Throws InputError when there are none.
 void print_keys(const std::string& prefix, bool json);
-/// All laws in one line each, or everything about one. Throws InputError for an unknown name.
-void print_materials(const std::string& name);
+/// All laws in one line each, or everything about one; or either as JSON. Throws InputError for an unknown name.
+void print_materials(const std::string& name, bool json);
 
 }  // namespace titin
