@@ -5,12 +5,14 @@
 #include "materials/collagen_table.hpp"
 #include "materials/compressible_neo_hookean.hpp"
 #include "materials/gent.hpp"
+#include "materials/fluid.hpp"
 #include "materials/goh.hpp"
 #include "materials/guccione.hpp"
 #include "materials/hill_active.hpp"
 #include "materials/hill_passive.hpp"
 #include "materials/holmes_mow.hpp"
 #include "materials/holzapfel_ogden.hpp"
+#include "materials/isotropic_family.hpp"
 #include "materials/linear_fibre.hpp"
 #include "materials/mooney_rivlin.hpp"
 #include "materials/neo_hookean.hpp"
@@ -65,6 +67,7 @@ std::vector<LawInfo> laws() {
   for (const LawEntry& entry : law_entries())
     all.push_back(described(entry.info, [&](Section s) { entry.read(s, {}); }));
   for (const VolumetricEntry& entry : volumetric_entries()) all.push_back(described(entry.info, entry.read));
+  for (const FluidEntry& entry : fluid_entries()) all.push_back(described(entry.info, entry.read));
   return all;
 }
 

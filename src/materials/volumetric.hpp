@@ -54,4 +54,18 @@ struct LogarithmicVolume : BulkModulus {
 };
 TITIN_VOLUMETRIC(LogarithmicVolume)
 
+/// Convex, and without bound both ways.
+struct QuadraticLogarithmicVolume : BulkModulus {
+  static constexpr auto name = "quad_log";
+  static constexpr auto formula = "U = K/4 [(D - 1)^2 + (ln D)^2]";
+  static constexpr auto source = "Boscheri, Loubere & Maire, ADER-MOOD scheme for hyperelastic solids";
+  template <class T>
+  T energy(const T& ratio) const {
+    using std::log;
+    const T change = ratio - 1.0, l = log(ratio);
+    return 0.25 * bulk_modulus * (change * change + l * l);
+  }
+};
+TITIN_VOLUMETRIC(QuadraticLogarithmicVolume)
+
 }  // namespace titin
