@@ -89,6 +89,8 @@ std::unique_ptr<Term> make_term(Law law, TermOptions options) {
   if constexpr (requires { law.measure = options.measure; }) law.measure = options.measure;
   if constexpr (InvariantLaw<Law>)
     return std::make_unique<EnergyTerm<Law>>(std::move(law), options.family);
+  else if constexpr (ForceLaw<Law>)
+    return std::make_unique<ForceTerm<Law>>(std::move(law), options.family);
   else if constexpr (PowerLaw<Law>)
     return std::make_unique<PowerTerm>(law.powers());
   else

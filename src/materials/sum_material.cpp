@@ -127,6 +127,8 @@ SumMaterial::SumMaterial(Parts parts) : parts_(std::move(parts)), used_(used_by(
 }
 
 bool SumMaterial::symmetric_tangent(FibreRate rate) const {
+  const auto symmetric = [](const WeightedTerm& t) { return t.term->symmetric(); };
+  if (!std::all_of(parts_.terms.begin(), parts_.terms.end(), symmetric)) return false;
   return rate != FibreRate::velocity_gradient || !used_.has(Invariant::rate);
 }
 

@@ -4,6 +4,9 @@
 /// of powers of principal stretches (materials/power_term.hpp):
 ///   * an energy in invariants: `static constexpr std::array uses{Invariant::I1, ...}` and
 ///     `template <class T> T energy(const Invariants<T>& x) const` [J/m^3], x holding the invariants' excess over rest;
+///   * forces W_a by invariants that no energy need have: `uses` and
+///     `template <class T> std::array<T, uses.size()> forces(const Invariants<T>& x, double time) const`, one for each
+///     used invariant, and `bool symmetric() const`: do they derive from an energy?
 ///   * a fibre: `static constexpr bool uses_rate` and
 ///     `template <class T> T fibre_stress(const T& stretch, const T& rate, double time) const`, the Kirchhoff stress
 ///     along the fibre [Pa]; and `double energy(double stretch) const` [J/m^3] if it stores energy.
@@ -11,6 +14,7 @@
 
 #include <array>
 #include <concepts>
+#include <span>
 
 #include "materials/invariants.hpp"
 #include "math/dual.hpp"
@@ -41,8 +45,11 @@ class Term {
   virtual ~Term() = default;
   virtual InvariantSet uses() const = 0;
   virtual bool stores_energy() const = 0;
+  /// Whether the tangent is symmetric where no rate is used: W_ab = W_ba.
+  virtual bool symmetric() const { return true; }
   bool needs_fibre() const { return uses().has_any({Invariant::I4, Invariant::I5, Invariant::I8}); }
   bool needs_second_fibre() const { return uses().has_any({Invariant::I6, Invariant::I8}); }
+  virtual bool needs_perpendicular_fibres() const { return false; }  ///< `fibre` and `second_fibre` are axes
   /// Adds weight times the derivatives of the energy.
   virtual void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const = 0;
   /// What is not written in invariants adds weight times its stress and, unless null, its tangent.
@@ -75,6 +82,11 @@ concept InvariantLaw = requires(const Law& law, const Invariants<double>& x) {
   Law::uses;
 };
 template <class Law>
+concept ForceLaw = requires(const Law& law, const Invariants<double>& x) {
+  law.forces(x, 0.0);
+  { law.symmetric() } -> std::convertible_to<bool>;
+};
+template <class Law>
 concept FibreLaw = requires(const Law& law, double x) {
   { law.fibre_stress(x, x, x) } -> std::convertible_to<double>;
   { Law::uses_rate } -> std::convertible_to<bool>;
@@ -84,18 +96,28 @@ concept StoringFibreLaw = FibreLaw<Law> && requires(const Law& law, double x) {
   law.energy(x);
 };
 
+/// Where a law's invariants are found: I4 of the second family is I6.
+template <class Law>
+constexpr auto slots_of(FibreFamily family) {
+  auto slots = Law::uses;
+  for (Invariant& a : slots)
+    if (a == Invariant::I4 && family == FibreFamily::second) a = Invariant::I6;
+  return slots;
+}
+inline InvariantSet set_of(std::span<const Invariant> slots) {
+  InvariantSet set;
+  for (Invariant a : slots) set.insert(a);
+  return set;
+}
+
 template <InvariantLaw Law>
 class EnergyTerm final : public Term {
  public:
-  EnergyTerm(Law law, FibreFamily family) : law_(std::move(law)), slots_(Law::uses) {
-    for (Invariant& a : slots_)
-      if (a == Invariant::I4 && family == FibreFamily::second) a = Invariant::I6;
-  }
+  EnergyTerm(Law law, FibreFamily family) : law_(std::move(law)), slots_(slots_of<Law>(family)) {}
   bool stores_energy() const override { return true; }
-  InvariantSet uses() const override {
-    InvariantSet set;
-    for (Invariant a : slots_) set.insert(a);
-    return set;
+  InvariantSet uses() const override { return set_of(slots_); }
+  bool needs_perpendicular_fibres() const override {
+    return requires { Law::needs_perpendicular_fibres; };
   }
   void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const override {
     if (sum.want_second)
@@ -132,7 +154,44 @@ class EnergyTerm final : public Term {
   }
 
   Law law_;
-  std::array<Invariant, M> slots_;  ///< where the law's invariants are found: I4 of the second family is I6
+  std::array<Invariant, M> slots_;
+};
+
+/// P = sum_a W_a G_a of forces that are given themselves: W_ab = dW_a/dI_b, which need not be symmetric.
+template <ForceLaw Law>
+class ForceTerm final : public Term {
+ public:
+  ForceTerm(Law law, FibreFamily family) : law_(std::move(law)), slots_(slots_of<Law>(family)) {}
+  bool stores_energy() const override { return false; }
+  bool symmetric() const override { return law_.symmetric(); }
+  InvariantSet uses() const override { return set_of(slots_); }
+  void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const override {
+    using Number = Dual<M, 1>;
+    for (int p = 0; p < points.n; ++p) {
+      Invariants<Number> x;
+      for (int a = 0; a < M; ++a)
+        x.excess[index(Law::uses[a])] = Number::variable(points.excess[index(slots_[a])][p], a);
+      const std::array<Number, M> W = law_.forces(x, points.time);
+      for (int a = 0; a < M; ++a) {
+        const int row = index(slots_[a]);
+        sum.first[row][p] += weight * W[a].value;
+        if (!sum.want_second) continue;
+        for (int b = 0; b < M; ++b) sum.second[row][index(slots_[b])][p] += weight * W[a].gradient[b];
+      }
+    }
+  }
+  void add_energy(const PointBlock&, double, double*) const override {}
+  double activation(double time) const override {
+    if constexpr (requires { law_.activation(time); })
+      return law_.activation(time);
+    else
+      return 0;
+  }
+
+ private:
+  static constexpr int M = static_cast<int>(Law::uses.size());
+  Law law_;
+  std::array<Invariant, M> slots_;
 };
 
 /// W_4 = sigma / (2 I4), whose derivatives are W_44 = (lambda sigma' - 2 sigma) / (4 I4^2) and W_4r = sigma_r / (2 I4).
