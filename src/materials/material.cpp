@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "materials/growth.hpp"
 #include "materials/memory_material.hpp"
 #include "materials/sum_material.hpp"
 
@@ -104,6 +105,11 @@ void read_fibres(Section& s, SumMaterial::Parts& parts) {
                  &Term::needs_fibre, parts.fibres.first, parts);
   read_direction(s, "second_fibre", "direction of a second family of fibres, or of sheets", &Term::needs_second_fibre,
                  parts.fibres.second, parts);
+  constexpr double perpendicular = 1e-3;  // cosine: directions are given to three digits or more
+  for (const WeightedTerm& t : parts.terms)
+    if (t.term->needs_perpendicular_fibres() && std::abs(dot(parts.fibres.first, parts.fibres.second)) > perpendicular)
+      s.error("second_fibre", "is not at a right angle to the fibre, as term \"" + t.info.name + "\" needs",
+              "give directions of orthotropy, [1, 0, 0] and [0, 1, 0], say");
 }
 
 void read_measure(Section& s, SumMaterial::Parts& parts) {
@@ -134,7 +140,7 @@ std::shared_ptr<const Material> Material::read(Section s) {
   read_constituent(s, 1 - share, parts);
   if (mixed) read_constituent(s.section("mix"), share, parts);
   read_fibres(s, parts);
-  return with_memory(std::move(parts));
+  return read_growth(s, with_memory(std::move(parts)));
 }
 
 }  // namespace titin
