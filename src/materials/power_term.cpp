@@ -63,6 +63,22 @@ void add_power(const StretchPower& power, const Principal& p, Scalars& s) {
   }
 }
 
+/// c sum (ln l_a)^2: the Kirchhoff stresses are beta_a = 2 c ln l_a.
+void add_logarithm(double c, const Principal& p, Scalars& s) {
+  Vec3 x;
+  for (int a = 0; a < 3; ++a) x[a] = std::exp(p.log_x[a]);
+  for (int a = 0; a < 3; ++a) {
+    const double beta = 2 * c * p.log_stretch[a];
+    s.stress[a] += beta / x[a];
+    for (int b = 0; b < 3; ++b) s.normal[3 * a + b] += (a == b ? 4.0 / 3 * c - 2 * beta : -2.0 / 3 * c) / (x[a] * x[b]);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int a = (i + 1) % 3, b = (i + 2) % 3;
+    const double of_log = divided_difference_of_log(p.log_x[a], p.log_x[b]);
+    s.shear[i] += c * (of_log - 2 * p.log_stretch[a] / x[a]) / x[b];
+  }
+}
+
 Mat3 second_piola(const Principal& p, const Scalars& s) {
   Mat3 S{};
   for (int a = 0; a < 3; ++a) add(S, s.stress[a], dyad(p.N[a], p.N[a]));
@@ -97,7 +113,8 @@ void PowerTerm::add_energy(const PointBlock& points, double weight, double* sum)
   for (int n = 0; n < points.n; ++n) {
     const Principal p = principal(points.F[n]);
     for (const StretchPower& power : powers_)
-      for (double l : p.log_stretch) sum[n] += weight * power.coefficient * std::expm1(power.exponent * l);
+      for (double l : p.log_stretch)
+        sum[n] += weight * power.coefficient * (power.exponent == 0 ? l * l : std::expm1(power.exponent * l));
   }
 }
 
@@ -105,7 +122,11 @@ void PowerTerm::add_stress(const PointBlock& points, double weight, Mat3* P, Mat
   for (int n = 0; n < points.n; ++n) {
     const Principal p = principal(points.F[n]);
     Scalars s;
-    for (const StretchPower& power : powers_) add_power(power, p, s);
+    for (const StretchPower& power : powers_)
+      if (power.exponent == 0)
+        add_logarithm(power.coefficient, p, s);
+      else
+        add_power(power, p, s);
     for (int a = 0; a < 3; ++a) add(P[n], weight * s.stress[a], dyad(p.f[a], p.N[a]));
     if (A) add_tangent(p, s, weight, A[n]);
   }

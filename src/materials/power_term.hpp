@@ -14,7 +14,7 @@ namespace titin {
 
 struct StretchPower {
   double coefficient;  ///< c_p [Pa]
-  double exponent;     ///< alpha_p
+  double exponent;     ///< alpha_p; 0 stands for c_p sum (ln l_a)^2, to which powers with 2 c_p/alpha_p^2 tend
 };
 
 template <class Law>

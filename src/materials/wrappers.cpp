@@ -81,8 +81,8 @@ Wrapper read_maxwell(Section s, const Term* term, TermOptions options) {
   MaxwellFlow flow;
   flow.bind(s);
   if (!term) return {};
-  if (term->needs_second_fibre() || term->uses().has(Invariant::rate))
-    s.error("", "the spring of a Maxwell branch is an isotropic law, or one of a single fibre without rate",
+  if (term->needs_second_fibre() || term->uses().has(Invariant::rate) || !term->stores_energy())
+    s.error("", "the spring of a Maxwell branch is an isotropic law, or one of a single fibre that stores energy",
             "take prony for other laws");
   const bool along_fibres = term->needs_fibre();
   return [=](std::shared_ptr<const Response> spring) -> std::shared_ptr<const Response> {

@@ -57,4 +57,11 @@ inline double divided_difference_of_power(double m, double a, double b) {
   return std::exp((m - 1) * a) * ratio;
 }
 
+/// (b - a) / (exp(b) - exp(a)), the divided difference of ln x between exp(a) and exp(b); its limit at a = b is
+/// exp(-a).
+inline double divided_difference_of_log(double a, double b) {
+  const double difference = b - a;
+  return std::exp(-a) * (difference == 0 ? 1 : difference / std::expm1(difference));
+}
+
 }  // namespace titin

@@ -1,7 +1,9 @@
 // Finite viscoelasticity: a Maxwell branch with a neo-Hookean spring against accurate integrations of its flow
 // equations.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "math/spectral.hpp"
 #include "math/symmetric.hpp"
 #include "memory_for_tests.hpp"
 
@@ -14,11 +16,7 @@ const std::string branch = "mu = \"5 Pa\", maxwell = { viscosity = \"10 Pa s\" }
 
 Mat3 kirchhoff(const Mat3& P, const Mat3& F) { return multiply(P, transpose(F)); }
 
-Mat3 tau_of(const nlohmann::json& entry) {
-  Mat3 tau;
-  for (int i = 0; i < 9; ++i) tau[i] = entry["tau_neq"][i / 3][i % 3].get<double>();
-  return tau;
-}
+Mat3 tau_of(const nlohmann::json& entry) { return mat3(entry.contains("tau_neq") ? entry["tau_neq"] : entry); }
 
 double distance(const Mat3& a, const Mat3& b) {
   double d = 0;
@@ -69,6 +67,48 @@ INSTANTIATE_TEST_SUITE_P(All, Branch,
                                            Case{"rg_neohooke_cyclic_shear", cyclic_shear, "0.5"},
                                            Case{"rg_neohooke_cyclic_shear", cyclic_shear, "2.0"}),
                          [](const auto& info) { return "case_" + std::to_string(info.index); });
+
+/// A deformation in which a logarithmic spring of mu = 5 Pa has this Kirchhoff stress: F = exp(tau/(2 mu)) Q.
+Mat3 of_stress(const Mat3& tau) {
+  const Eigenpairs e = eigenpairs(tau);
+  Mat3 V{};
+  for (int a = 0; a < 3; ++a) add(V, std::exp(e.values[a] / 10), dyad(e.vectors[a], e.vectors[a]));
+  return multiply(V, rotation(0.7));
+}
+
+/// A logarithmic spring relaxes by exactly 1/(1 + dt mu/eta_D) in every step, whatever the deformation.
+TEST(HenckyBranch, RelaxesByTheSameFactorInEveryStep) {
+  const auto reference = time_dependent()["rg_hencky_step"];
+  const std::vector<std::pair<const char*, Mat3>> deformations{
+      {"uniax_1.3_incomp", uniaxial(0)},
+      {"shear_0.4", {1, 0.4, 0, 0, 1, 0, 0, 0, 1}},
+      {"general_B", of_stress(tau_of(reference["tau_neq"]["general_B"]["0.0"]))}};
+  for (const auto& [name, F] : deformations)
+    for (int steps : {20, 200}) {
+      SCOPED_TRACE(fmt::format("{}, {} steps", name, steps));
+      const double dt = 2.0 / steps, factor = 1 / (1 + dt * 5 / 10);
+      RememberingPoint point(material_of("hencky", branch));
+      Mat3 expected = tau_of(reference["tau_neq"][name]["0.0"]);
+      EXPECT_LT(distance(kirchhoff(point.step(F, 0.0), F), expected), 1e-12);
+      Mat3 tau{};
+      for (int n = 0; n < steps; ++n) tau = kirchhoff(point.step(F, dt), F);
+      for (double& x : expected) x *= std::pow(factor, steps);
+      EXPECT_LT(distance(tau, expected), 1e-12);
+    }
+}
+
+TEST(HenckyBranch, ConvergesAtFirstOrderToItsExponential) {
+  const auto reference = time_dependent()["rg_hencky_step"];
+  const Mat3 exact = tau_of(reference["tau_neq"]["uniax_1.3_incomp"]["2.0"]);
+  const auto error = [&](int steps) {
+    RememberingPoint point(material_of("hencky", branch));
+    point.step(uniaxial(0), 0.0);
+    Mat3 P{};
+    for (int n = 0; n < steps; ++n) P = point.step(uniaxial(0), 2.0 / steps);
+    return distance(kirchhoff(P, uniaxial(0)), exact);
+  };
+  EXPECT_NEAR(std::log2(error(100) / error(200)), 1.0, 0.02);
+}
 
 TEST(Branch, StepIsTakenAtOnce) {
   const auto reference = time_dependent()["rg_neohooke_step_uniax"]["values"]["0"];

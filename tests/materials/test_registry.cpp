@@ -11,6 +11,8 @@ namespace {
 
 // Measured orders of central differences (2 in theory) may lie a little low: the next term of the series.
 constexpr double order_of_central_differences = 1.9;
+// Central differences of quadratic functions are exact but for the rounding of P, divided by the step.
+constexpr double exact_difference = 1e-11;
 // Tens of roundings in sums of nine products.
 constexpr double round_off = 1e-12;
 
@@ -18,6 +20,27 @@ constexpr double round_off = 1e-12;
 const std::map<std::string, std::vector<std::string>>& more_parameters() {
   static const std::map<std::string, std::vector<std::string>> sets{
       {"mooney_rivlin", {R"(c1 = "6 kPa", c2 = "2 kPa")"}},
+      {"active_stress",
+       {R"(peak_stress = "50 kPa", activation = 0.8, measure = "cauchy")",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "cauchy", across = 0.4, family = "second")",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "cauchy", across = 1)",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "cauchy", projection = "deviator")",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "kirchhoff", across = 0.3)",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "kirchhoff", projection = "deviator")",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "pk1")",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "pk1", projection = "deviator")",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "pk2", along = 0.9, across = 0.3)",
+        R"(peak_stress = "50 kPa", activation = 0.8, measure = "pk2", across = 0.3, projection = "deviator")"}},
+      {"cann",
+       {R"(moduli_1 = "5, 2, 3, 1 kPa", exponents_1 = [1.5, 0.8], moduli_2 = "4, 1, 2, 0.5 kPa", exponents_2 = [2, 0.6])"}},
+      {"cann_fibre", {R"(w1 = "3 kPa", w2 = "1 kPa", b = 2.5)"}},
+      {"icnn",
+       {R"(amplitude = "1, 0.7, 0.4 kPa", weight_1 = [0.9, 0.3, 9], weight_2 = [0.1, 0.25, 8], bias = [-0.4, 0.1, -1])"}},
+      {"isotropic_family", {R"(mu = "10 kPa", a = -0.3)"}},
+      {"hencky", {R"(mu = "10 kPa")"}},
+      {"fung",
+       {R"(c = "2 kPa", bff = 8, bss = 6, bnn = 3, bfs = 12, bsn = 3, bfn = 2)",
+        R"(c = "2 kPa", bff = 8, bss = 6, bnn = 3, bffss = 2, bssnn = -1, bnnff = 1.5, bfs = 5, bsn = 3, bfn = 2)"}},
       {"hill_active",
        {R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "flexodeal_smooth")",
         R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "degroote")"}},
@@ -29,7 +52,11 @@ const std::map<std::string, std::vector<std::string>>& more_parameters() {
       {"linear_fibre", {R"(stiffness = "200 kPa")"}},
       {"goh",
        {R"(k1 = "2.4 kPa", k2 = 0.84, kappa = 0.1)", R"(k1 = "2.4 kPa", k2 = 0.84, kappa = 0.1, switch = "I4")",
+        R"(k1 = "2.4 kPa", k2 = 0.84, kappa = 0.1, switch_width = 0.05)",
         R"(k1 = "2.4 kPa", k2 = 0.84, switch = "none", family = "second")"}},
+      {"weiss_fibre",
+       {R"(c3 = "0.57 MPa", c4 = 48, c5 = "467.1 MPa", lambda_straight = 1.062)",
+        R"(c3 = "0.57 MPa", c4 = 48, lambda_straight = 1.2)"}},
       {"blemker_passive",
        {R"(peak_stress = "300 kPa", optimal_stretch = 1, p1 = 0.05, p2 = 6.6, lambda_straight = 1.4)",
         R"(peak_stress = "300 kPa", optimal_stretch = 1, p1 = 0.05, p2 = 6.6, lambda_straight = 1.05)"}},
@@ -128,6 +155,7 @@ TEST(EveryLaw, TangentIsTheDerivativeOfItsStressAtTheOrderOfCentralDifferences) 
         }
         return distance(difference, A);
       };
+      if (error(8e-3) <= exact_difference * size_of(A)) return;  // P is of second degree in F
       EXPECT_GT(order(error), order_of_central_differences);
     });
 }
