@@ -126,8 +126,7 @@ Numbers numbers(const AskedKey& asked, int size) {
   }
   if (!all) return std::nullopt;
   if (size >= 0 && static_cast<int>(all->size()) != size) {
-    asked.complain(fmt::format("has {} number{}", all->size(), all->size() == 1 ? "" : "s"),
-                   fmt::format("give {}", size));
+    asked.complain("has " + count(all->size(), "number"), fmt::format("give {}", size));
     return std::nullopt;
   }
   if (!in_range(asked, *all)) return std::nullopt;

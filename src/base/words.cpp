@@ -59,6 +59,8 @@ std::string printable(std::string_view text) {
 
 std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }
 
+std::string count(double n, std::string_view what) { return fmt::format("{:.0f} {}{}", n, what, n == 1 ? "" : "s"); }
+
 std::string toml_string(std::string_view text) {
   std::string s = "\"";
   for (const char c : text) {

@@ -13,7 +13,8 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// Safe and short enough to print: control characters become '?', long text is cut.
 std::string printable(std::string_view text);
-std::string in_quotes(std::string_view text);  ///< printable, in quotation marks
+std::string in_quotes(std::string_view text);        ///< printable, in quotation marks
+std::string count(double n, std::string_view what);  ///< "1 rank", "2 ranks"
 /// The text as a TOML basic string.
 std::string toml_string(std::string_view text);
 

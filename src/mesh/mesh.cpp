@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "base/parallel.hpp"
+#include "base/words.hpp"
+#include "mesh/gmsh.hpp"
 
 namespace titin {
 
@@ -14,42 +18,18 @@ namespace {
 constexpr int max_refinements = 8;
 constexpr double max_cells = 1e8;  // one rank holds the serial mesh while it is partitioned
 
-/// What $PhysicalNames of a Gmsh 2.2 file says; MFEM 4.6 reads the numbers and drops the names.
-struct GmshNames {
-  std::map<std::string, int> volumes, surfaces;
-  std::string error;
-};
+/// MFEM prints its errors before it throws them; ours are printed once, by rank 0.
+class Silence {
+ public:
+  Silence() : was_on_(mfem::err.IsEnabled()) { mfem::err.Disable(); }
+  ~Silence() {
+    if (was_on_) mfem::err.Enable();
+  }
+  Silence(const Silence&) = delete;
 
-GmshNames read_gmsh_names(const std::string& file) {
-  GmshNames names;
-  std::ifstream in(file, std::ios::binary);
-  std::string word, version;
-  if (!(in >> word >> version) || word != "$MeshFormat") {
-    names.error = "is not a Gmsh mesh (it does not begin with $MeshFormat)";
-    return names;
-  }
-  if (version.rfind("2.2", 0) != 0) {
-    names.error =
-        fmt::format("is a Gmsh mesh of format {}; only 2.2 is read (save it with Mesh.MshFileVersion = 2.2)", version);
-    return names;
-  }
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("$Nodes", 0) == 0) break;  // names come before nodes
-    if (line.rfind("$PhysicalNames", 0) != 0) continue;
-    int count = 0;
-    in >> count;
-    for (int i = 0, dimension, tag; i < count && in >> dimension >> tag; ++i) {
-      std::string name;
-      std::getline(in, name);
-      const auto first = name.find('"'), last = name.rfind('"');
-      if (first == std::string::npos || last <= first) continue;
-      name = name.substr(first + 1, last - first - 1);
-      if (dimension == 3) names.volumes[name] = tag;
-      if (dimension == 2) names.surfaces[name] = tag;
-    }
-  }
-  return names;
-}
+ private:
+  bool was_on_;
+};
 
 /// Tags without a name get one: "region 3", "boundary 7".
 void name_the_rest(const mfem::Array<int>& attributes, const std::string& kind, std::map<std::string, int>& names) {
@@ -69,29 +49,77 @@ mfem::Mesh make_box(const MeshConfig& config, NamedMesh& named) {
   return mfem::Mesh::MakeCartesian3D(nx, ny, nz, mfem::Element::HEXAHEDRON, a, b, c, true);
 }
 
-mfem::Mesh load(const std::string& file, NamedMesh& named, std::string& error) {
-  GmshNames names = read_gmsh_names(file);
-  error = names.error;
-  if (!error.empty()) return {};
-  try {
-    mfem::Mesh mesh(file.c_str(), 1, 1, true);
-    name_the_rest(mesh.attributes, "region", names.volumes);
-    name_the_rest(mesh.bdr_attributes, "boundary", names.surfaces);
-    named.regions = names.volumes;
-    named.boundaries = names.surfaces;
-    return mesh;
-  } catch (const mfem::ErrorException& e) {
-    error = fmt::format("cannot be read as a Gmsh mesh: {}", e.what());
-    return {};
-  }
+void scale(mfem::Mesh& mesh, double factor) {
+  if (mesh.GetNodes()) *mesh.GetNodes() *= factor;
+  for (int i = 0; i < mesh.GetNV(); ++i)
+    for (int d = 0; d < 3; ++d) mesh.GetVertex(i)[d] *= factor;
 }
 
-std::string unsuitable(const mfem::Mesh& mesh) {
-  if (mesh.Dimension() != 3) return "is not three-dimensional";
-  mfem::Array<mfem::Geometry::Type> geometries;
-  mesh.GetGeometries(3, geometries);
-  if (geometries.Size() != 1 || geometries[0] != mfem::Geometry::CUBE) return "has cells that are not hexahedra";
-  return "";
+/// An empty mesh when the file is no good, which is then reported.
+mfem::Mesh load(const MeshConfig& config, Section& section, NamedMesh& named) {
+  const std::string path = section.existing_file("file", config.file);
+  if (path.empty()) return {};
+  std::ifstream in(path);
+  GmshFile file = scan_gmsh(in);
+  if (file.problem.empty()) try {
+      const Silence silence;
+      mfem::Mesh mesh(path.c_str(), 1, 1, true);
+      scale(mesh, config.unit);
+      name_the_rest(mesh.attributes, "region", file.volumes);
+      name_the_rest(mesh.bdr_attributes, "boundary", file.surfaces);
+      named.regions = file.volumes;
+      named.boundaries = file.surfaces;
+      return mesh;
+    } catch (const mfem::ErrorException& error) {
+      const std::string text = error.what();
+      file.problem = fmt::format("cannot be read ({})", printable(text.substr(0, text.find('\n'))));
+      file.advice = "save it again";
+    }
+  section.error("file", fmt::format("file {} {}", in_quotes(config.file), file.problem), file.advice);
+  return {};
+}
+
+/// Does the scene say one mesh, and not none or two?
+bool names_one_mesh(const MeshConfig& config, Section& section) {
+  const bool has_box = config.box != std::array<double, 3>{0, 0, 0}, has_file = !config.file.empty();
+  if (!has_box && !has_file && (section.has("box") || section.has("file"))) return false;  // reported already
+  if (has_box == has_file)
+    section.error("", has_box ? "a mesh is either a box or a file, not both" : "no mesh",
+                  "give mesh.box (with mesh.cells) or mesh.file");
+  else if (has_box && *std::min_element(config.box.begin(), config.box.end()) <= 0)
+    section.error("box", "the edges of a box must be longer than 0");
+  else
+    return true;
+  return false;
+}
+
+/// Are there neither too many cells, after `growth` times as many come of refinement, nor too few?
+bool has_fit_size(double cells, double growth, std::string_view key, Section& section) {
+  if (cells * growth > max_cells)
+    section.error(growth > 1 ? "refine" : key, count(cells * growth, "cell"),
+                  fmt::format("take at most {:.0f}: one rank holds them all while they are shared out", max_cells));
+  else if (cells * growth < ranks())
+    section.error(key, fmt::format("{} for {}", count(cells * growth, "cell"), count(ranks(), "rank")),
+                  "every rank needs at least one cell: take more cells or fewer ranks");
+  else
+    return true;
+  return false;
+}
+
+/// Cells of this rank that have no positive volume somewhere.
+int inverted_cells(mfem::ParMesh& mesh) {
+  const auto& rule = mfem::IntRules.Get(mfem::Geometry::CUBE, 5);
+  int inverted = 0;
+  for (int cell = 0; cell < mesh.GetNE(); ++cell) {
+    auto* map = mesh.GetElementTransformation(cell);
+    bool positive = true;
+    for (int q = 0; q < rule.GetNPoints(); ++q) {
+      map->SetIntPoint(&rule.IntPoint(q));
+      positive = positive && map->Weight() > 0;
+    }
+    inverted += !positive;
+  }
+  return inverted;
 }
 
 }  // namespace
@@ -102,49 +130,28 @@ void MeshConfig::bind(Section& s) {
           .range = non_negative,
           .doc = "edge lengths of a box; boundaries x-, x+, y-, y+, z-, z+, region body"});
   s.read("cells", cells, {.range = {.min = 1, .max = 1e4}, .doc = "hexahedra of the box along x, y, z"});
-  s.read("file", file,
-         {.doc = "Gmsh 2.2 mesh of hexahedra, in metres; its physical names name regions and boundaries"});
+  s.read("file", file, {.doc = "Gmsh 2.2 mesh of hexahedra; its physical names name regions and boundaries"});
+  s.read("unit", unit, {.unit = "m", .range = positive, .doc = "what a length of 1 in the file is"});
   s.read("refine", refine,
          {.range = {.min = 0, .max = max_refinements}, .doc = "uniform refinements (each 8 times the cells)"});
 }
 
 NamedMesh NamedMesh::read(const MeshConfig& config, Section section) {
   NamedMesh named;
-  const bool has_box = config.box != std::array<double, 3>{0, 0, 0};
-  if (!has_box && config.file.empty() && (section.has("box") || section.has("file"))) return named;  // reported already
-  if (has_box == !config.file.empty()) {
-    section.error("", has_box ? "a mesh is either a box or a file, not both" : "no mesh",
-                  "give mesh.box (with mesh.cells) or mesh.file");
-    return named;
-  }
-  if (has_box && (config.box[0] <= 0 || config.box[1] <= 0 || config.box[2] <= 0)) {
-    section.error("box", "the edges of a box must be longer than 0");
-    return named;
-  }
-  const std::string file = has_box ? "" : section.existing_file("file", config.file);
-  if (!has_box && file.empty()) return named;
-
-  const double cells = 1.0 * config.cells[0] * config.cells[1] * config.cells[2] * std::pow(8.0, config.refine);
-  if (has_box && (cells > max_cells || cells < ranks())) {
-    section.error(
-        "cells", fmt::format("{:.0f} cells for {} ranks", cells, ranks()),
-        cells > max_cells ? "take fewer cells" : "every rank needs at least one cell: take more cells or fewer ranks");
-    return named;
-  }
-  std::string error;
-  mfem::Mesh serial = has_box ? make_box(config, named) : load(file, named, error);
-  if (error.empty()) error = unsuitable(serial);
-  if (!error.empty()) {
-    section.error("file", fmt::format("{} {}", file, error));
-    return named;
-  }
+  if (!names_one_mesh(config, section)) return named;
+  const bool has_box = config.file.empty();
+  const double growth = std::pow(8.0, config.refine);
+  const double in_box = 1.0 * config.cells[0] * config.cells[1] * config.cells[2];
+  if (has_box && !has_fit_size(in_box, growth, "cells", section)) return named;
+  mfem::Mesh serial = has_box ? make_box(config, named) : load(config, section, named);
+  if (serial.GetNE() == 0 || (!has_box && !has_fit_size(serial.GetNE(), growth, "file", section))) return named;
   for (int i = 0; i < config.refine; ++i) serial.UniformRefinement();
-  if (serial.GetNE() < ranks()) {
-    section.error("", fmt::format("{} cells for {} ranks", serial.GetNE(), ranks()),
-                  "every rank needs at least one cell: take more cells or fewer ranks");
-    return named;
-  }
-  named.mesh = std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, serial);
+  auto mesh = std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, serial);
+  if (const long inverted = sum(static_cast<long>(inverted_cells(*mesh))); inverted > 0)
+    section.error("file", fmt::format("{} of {} are inside out", inverted, count(mesh->GetGlobalNE(), "cell")),
+                  "number the nodes of a cell as Gmsh does, and move those that make cells too slanted");
+  else
+    named.mesh = std::move(mesh);
   return named;
 }
 

@@ -15,6 +15,7 @@ struct MeshConfig {
   std::array<double, 3> box{0, 0, 0};  // edge lengths [m] of [0,a]x[0,b]x[0,c]; zeros: no box
   std::array<int, 3> cells{1, 1, 1};   // of the box
   std::string file;                    // Gmsh 2.2
+  double unit = 1;                     // length of 1 in the file [m]
   int refine = 0;                      // uniform refinements after loading
   void bind(Section& s);
 };

@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "base/timers.hpp"
 #include "base/version.hpp"
+#include "base/words.hpp"
 #include "io/run_folder.hpp"
 #include "scene/output.hpp"
 #include "scene/progress.hpp"
@@ -36,8 +37,6 @@ Scene read(const RunOptions& options) {
   }
   throw InputError({folder_problem});
 }
-
-std::string count(long n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
 /// One run: the loop, and run.json around it.
 class Run {
@@ -173,8 +172,7 @@ void check_scene(const RunOptions& options) {
   logging::info("  ranks     {}", ranks());
   logging::info("  cells     {}", model.mesh().GetGlobalNE());
   logging::info("  unknowns  {}", model.unknowns());
-  logging::info("  time      {} of {:g} s to {:g} s", count(static_cast<long>(steps), "step"), scene.clock.step,
-                scene.clock.end);
+  logging::info("  time      {} of {:g} s to {:g} s", count(steps, "step"), scene.clock.step, scene.clock.end);
   std::string fields;
   for (const Field& field : model.fields()) fields += (fields.empty() ? "" : ", ") + field.name;
   logging::info("  fields    {}", fields);

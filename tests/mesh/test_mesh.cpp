@@ -1,0 +1,204 @@
+// Boxes and Gmsh files become meshes with names; files that are no good get a sentence.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "base/parallel.hpp"
+#include "mesh/gmsh.hpp"
+#include "mesh/mesh.hpp"
+
+namespace titin {
+namespace {
+
+const std::string two_bricks = TITIN_TEST_DATA "/mesh/two_bricks.msh";
+
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+NamedMesh read(const std::string& keys) {
+  Config config("[mesh]\n" + keys, "scene.toml");
+  Section section = config.root().section("mesh");
+  MeshConfig mesh;
+  mesh.bind(section);
+  NamedMesh named = NamedMesh::read(mesh, section);
+  config.finish();
+  return named;
+}
+
+std::string error(const std::string& keys) {
+  try {
+    read(keys);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+double volume(const NamedMesh& named, const std::string& region) {
+  double mine = 0;
+  for (int cell = 0; cell < named.mesh->GetNE(); ++cell)
+    if (named.mesh->GetAttribute(cell) == named.regions.at(region)) mine += named.mesh->GetElementVolume(cell);
+  return sum(mine);
+}
+
+double area(const NamedMesh& named, const std::string& boundary) {
+  const auto marker = named.boundary_marker({boundary});
+  double mine = 0;
+  for (int face = 0; face < named.mesh->GetNBE(); ++face) {
+    if (!marker[named.mesh->GetBdrAttribute(face) - 1]) continue;
+    auto& map = *named.mesh->GetBdrElementTransformation(face);
+    map.SetIntPoint(&mfem::Geometries.GetCenter(mfem::Geometry::SQUARE));
+    mine += map.Weight();  // plane parallelograms: one point is exact
+  }
+  return sum(mine);
+}
+
+TEST(Box, NamesItsSidesAndItsBody) {
+  const NamedMesh box = read("box = \"30, 20, 10 mm\"\ncells = [3, 2, 2]\n");
+  EXPECT_EQ(box.mesh->GetGlobalNE(), 12);
+  EXPECT_EQ(names_of(box.boundaries), "x+, x-, y+, y-, z+, z-");
+  EXPECT_NEAR(volume(box, "body"), 6e-6, 1e-18);
+  for (const char* name : {"x-", "x+"}) EXPECT_NEAR(area(box, name), 2e-4, 1e-16) << name;
+  for (const char* name : {"y-", "y+"}) EXPECT_NEAR(area(box, name), 3e-4, 1e-16) << name;
+  for (const char* name : {"z-", "z+"}) EXPECT_NEAR(area(box, name), 6e-4, 1e-16) << name;
+}
+
+TEST(Gmsh, NamesRegionsAndBoundariesAndNumbersTheRest) {
+  const NamedMesh named = read("file = \"" + two_bricks + "\"\n");
+  EXPECT_EQ(named.mesh->GetGlobalNE(), 2);
+  EXPECT_EQ(names_of(named.regions), "muscle, tendon");
+  EXPECT_EQ(names_of(named.boundaries), "boundary 7, held end, pulled");
+  EXPECT_NEAR(volume(named, "muscle"), 1e-6, 1e-18);
+  EXPECT_NEAR(volume(named, "tendon"), 2e-6, 1e-18);
+  const double slanted = 1e-4 * std::sqrt(1.04);
+  EXPECT_NEAR(area(named, "held end"), slanted, 1e-16);
+  EXPECT_NEAR(area(named, "pulled"), slanted, 1e-16);
+  EXPECT_NEAR(area(named, "boundary 7"), 12e-4, 1e-15);
+}
+
+TEST(Gmsh, KeepsItsNamesWhenItIsRefined) {
+  const NamedMesh named = read("file = \"" + two_bricks + "\"\nrefine = 2\n");
+  EXPECT_EQ(named.mesh->GetGlobalNE(), 128);
+  EXPECT_NEAR(volume(named, "muscle"), 1e-6, 1e-18);
+  EXPECT_NEAR(area(named, "pulled"), 1e-4 * std::sqrt(1.04), 1e-16);
+}
+
+TEST(Gmsh, MayBeInMillimetres) {
+  const NamedMesh named = read("file = \"" + two_bricks + "\"\nunit = \"1 mm\"\n");
+  EXPECT_NEAR(volume(named, "muscle"), 1e-15, 1e-27);
+}
+
+/// The error of two_bricks.msh with `from` replaced, without its place.
+std::string file_error(const std::string& from, const std::string& to) {
+  const std::string file = testing::TempDir() + "titin_bad_np" + std::to_string(ranks()) + ".msh";
+  if (is_root()) std::ofstream(file) << replaced(text_of(two_bricks), from, to);
+  any_of(false);  // waits for rank 0
+  const std::string text = error("file = \"" + file + "\"\nrefine = 1\n"), head = "scene.toml:2:8: mesh.file: ";
+  any_of(false);
+  if (is_root()) std::remove(file.c_str());
+  EXPECT_EQ(text.substr(0, head.size()), head);
+  return text.substr(std::min(text.size(), head.size()));
+}
+
+TEST(Gmsh, IsNamedAsTheUserNamesIt) {
+  const std::string text = file_error("2.2 0 8", "4.1 0 8");
+  EXPECT_NE(text.find("titin_bad_np" + std::to_string(ranks()) +
+                      ".msh\" is a Gmsh mesh of version 4.1, and only 2.2 is "
+                      "read; save it from Gmsh as \"Version 2 ASCII\" (gmsh -save -format msh22)"),
+            std::string::npos)
+      << text;
+}
+
+TEST(Gmsh, WithCellsInsideOutIsRefused) {
+  EXPECT_EQ(file_error("5 5 1 2 3 4 5 6 7 8", "5 5 5 6 7 8 1 2 3 4"),
+            "8 of 16 cells are inside out; number the nodes of a cell as Gmsh does, and move those that make cells too "
+            "slanted");
+}
+
+TEST(Mesh, NeedsACellForEveryRankAndNotTooMany) {
+  const std::string few = "box = \"1, 1, 1 m\"\n";
+  if (ranks() == 1)
+    EXPECT_EQ(error(few), "");
+  else
+    EXPECT_EQ(
+        error(few),
+        "scene.toml:1:1: mesh.cells: 1 cell for 2 ranks; every rank needs at least one cell: take more cells or fewer "
+        "ranks");
+  EXPECT_EQ(
+      error("box = \"1, 1, 1 m\"\ncells = [9999, 9999, 9999]\n"),
+      "scene.toml:3:9: mesh.cells: 999700029999 cells; take at most 100000000: one rank holds them all while they "
+      "are shared out");
+  EXPECT_EQ(error("file = \"" + two_bricks + "\"\nrefine = 9\n").substr(0, 40),
+            "scene.toml:3:10: mesh.refine: 9 is out o");
+}
+
+/// What the scanner says of two_bricks.msh with `from` replaced.
+std::string problem(const std::string& from, const std::string& to) {
+  std::istringstream in(replaced(text_of(two_bricks), from, to));
+  return scan_gmsh(in).problem;
+}
+
+TEST(GmshScan, SaysWhatAFileIsInstead) {
+  EXPECT_EQ(problem("$MeshFormat", "solid cube"), "is not a Gmsh mesh: it does not begin with $MeshFormat");
+  EXPECT_EQ(problem("2.2 0 8", "4.1 0 8"), "is a Gmsh mesh of version 4.1, and only 2.2 is read");
+  EXPECT_EQ(problem("2.2 0 8", "2.2 1 8"), "is a binary Gmsh mesh, and only text is read");
+  EXPECT_EQ(problem("11 5 2 5 5 1 2 3 4 5 6 7 8", "11 4 2 5 5 1 2 3 5"),
+            "has cells that are not hexahedra (tetrahedra, line 39)");
+  std::istringstream surface("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n0\n");
+  EXPECT_EQ(scan_gmsh(surface).problem, "holds no hexahedra");
+  std::istringstream empty("");
+  EXPECT_EQ(scan_gmsh(empty).problem, "is not a Gmsh mesh: it does not begin with $MeshFormat");
+}
+
+TEST(GmshScan, NamesTheLineThatIsDamaged) {
+  EXPECT_EQ(problem("9 0.03 0 0", "9 0.03 0 O"), "line 22: \"O\" is no such number as belongs here");
+  EXPECT_EQ(problem("9 0.03 0 0", "9 0.03 nan 0"), "line 22: has a coordinate that is not finite");
+  EXPECT_EQ(problem("9 0.03 0 0", "9 0.03"), "line 22: has too few numbers");
+  EXPECT_EQ(problem("9 0.03 0 0", "8 0.03 0 0"), "line 22: node 8 is there already");
+  EXPECT_EQ(problem("11 5 2 5 5 1 2", "11 5 2 5 5 77 2"), "line 39: there is no node 77");
+  EXPECT_EQ(problem("11 5 2 5 5 1 2", "11 5 2 5 5 3 2"), "line 39: an element has a node twice");
+  EXPECT_EQ(problem("11 5 2 5 5 1 2", "11 5 2 5 5 2"), "line 39: an element of type 5 with 2 tags has 13 numbers");
+  EXPECT_EQ(problem("11 5 2 5 5", "11 5 -2 5 5"), "line 39: an element of type 5 with -2 tags has 9 numbers");
+  EXPECT_EQ(problem("11 5 2 5 5", "11 500 2 5 5"), "line 39: elements of type 500 are not read");
+  EXPECT_EQ(problem("$Elements\n12", "$Elements\n-1"), "line 28: -1 is no number of entries");
+  EXPECT_EQ(problem("$Elements\n12", "$Elements\n14"), "line 41: has too few numbers");
+  EXPECT_EQ(problem("$EndElements\n", ""), "");
+  EXPECT_EQ(problem("12 5 2 6 6 2 9 10 3 6 11 12 7\n$EndElements\n", ""), "ends after 39 lines");
+  EXPECT_EQ(problem("1 3 2 7 7", "1 3 2 0 7"), "has elements with a physical group (line 30) and without (line 29)");
+}
+
+TEST(GmshScan, FindsWhatDoesNotFitTogether) {
+  EXPECT_EQ(problem("1 3 2 7 7 1 4 3 2", "1 3 2 7 7 1 4 3 9"), "line 29: a surface that is no side of a cell");
+  EXPECT_EQ(problem("1 3 2 7 7 1 4 3 2", "1 2 2 7 7 1 4 3"), "line 29: a surface that is no side of a cell");
+  EXPECT_EQ(problem("12 5 2 6 6 2 9 10 3 6 11 12 7", "12 5 2 6 6 2 9 10 3 6 11 12 8"),
+            "lines 39 and 40: cells that share three corners of a side, not four");
+  EXPECT_EQ(problem("10 3 2 7 7 10 3 7 12", "10 5 2 6 6 2 9 10 3 6 11 12 7"),
+            "line 40: a side belongs to more than two cells");
+}
+
+TEST(GmshScan, EndsOnAnyText) {
+  const std::string good = text_of(two_bricks);
+  unsigned state = 1;
+  for (int n = 0; n < 2000; ++n) {
+    std::string bad = good;
+    for (int k = 0; k < 3; ++k) {
+      state = state * 1664525u + 1013904223u;
+      bad[(state >> 8) % bad.size()] = static_cast<char>(state >> 24);
+    }
+    std::istringstream in(bad.substr(0, n % 2 ? bad.size() : (state >> 8) % bad.size()));
+    scan_gmsh(in);
+  }
+}
+
+}  // namespace
+}  // namespace titin
