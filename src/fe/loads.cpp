@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/parallel.hpp"
+#include "base/words.hpp"
 #include "fe/cell_tables.hpp"
 #include "math/tensor.hpp"
 
@@ -23,7 +24,7 @@ void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
   if (!s.describing() && mesh.mesh)
     for (const auto& boundary : on)
       if (!mesh.boundaries.count(boundary))
-        s.error(s.has("on") ? "on" : "", fmt::format("the mesh has no boundary '{}'", boundary),
+        s.error(s.has("on") ? "on" : "", fmt::format("the mesh has no boundary {}", in_quotes(boundary)),
                 "it has: " + names_of(mesh.boundaries));
   s.read("clamp", clamp, {.doc = "hold all components at zero displacement"});
   Section d = s.section("displacement", "prescribed components; a component that is not named is free");

@@ -13,7 +13,7 @@ namespace titin {
 
 class Muscle : public Model {
  public:
-  /// The mesh must not be empty and the config free of errors. Throws InputError for a marker outside the mesh.
+  /// The mesh must not be empty and the config free of errors.
   Muscle(NamedMesh mesh, MuscleConfig config);
 
   std::string name() const override { return "muscle"; }

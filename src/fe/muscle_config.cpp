@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
+
 namespace titin {
 
 namespace {
@@ -41,49 +43,51 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
   Section body = root.section("body", "forces per mass on everything");
   body.read("acceleration", body_acceleration, {.unit = "m/s^2", .doc = "body force per mass, e.g. gravity"});
   body.read("scale", body_scale, {.doc = "factor of the acceleration, constant or in time"});
-  bind_observers(root);
+  markers = read_markers(root, mesh);
+  averages = read_averages(root, mesh);
+  for (const AverageConfig& average : averages)
+    if (materials.count(average.name))
+      root.section("averages").error(average.name, "a material has this name, and means under it", "choose another");
   Section solver = root.section("solver", "Newton's method and the linear solver");
   newton.bind(solver);
 }
 
 void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
+  bool regions_are_right = true;
   root.each("materials", "one material, of one or more regions", [&](const std::string& name, Section s) {
     std::vector<std::string> regions;
     s.read("regions", regions, {.doc = "regions of the mesh that are made of it (default: all)"});
     materials[name] = Material::read(s);
-    if (s.describing() || !mesh.mesh) return;
-    if (regions.empty())
-      for (const auto& [region, attribute] : mesh.regions) regions.push_back(region);
-    for (const auto& region : regions) {
-      const auto found = mesh.regions.find(region);
-      if (found == mesh.regions.end())
-        s.error("regions", fmt::format("the mesh has no region '{}'", region), "it has: " + names_of(mesh.regions));
-      else if (!material_of_region.emplace(found->second, name).second)
-        s.error(s.has("regions") ? "regions" : "",
-                fmt::format("region '{}' is made of '{}' already", region, material_of_region[found->second]),
-                "give each material its own regions");
-    }
+    if (!s.describing() && mesh.mesh) regions_are_right &= take_regions(name, regions, s, mesh);
   });
-  if (root.describing() || !mesh.mesh) return;
+  if (root.describing() || !mesh.mesh || !regions_are_right) return;
   if (materials.empty()) root.error("materials", "no material", "add a table [materials.NAME]");
   for (const auto& [region, attribute] : mesh.regions)
     if (!materials.empty() && !material_of_region.count(attribute))
-      root.error("materials", fmt::format("region '{}' has no material", region), "name it in the regions of one");
+      root.error("materials", fmt::format("region {} has no material", in_quotes(region)),
+                 "name it in the regions of one");
 }
 
-void MuscleConfig::bind_observers(Section& root) {
-  Section points = root.section("markers", "points whose displacement is followed: NAME = \"x, y, z mm\", undeformed");
-  for (const std::string& name : points.names()) {
-    MarkerConfig marker{name, {}};
-    points.read(name, marker.position, {.unit = "m", .doc = "position in the undeformed body"});
-    markers.push_back(marker);
+/// Returns false when it reported one.
+bool MuscleConfig::take_regions(const std::string& material, std::vector<std::string> regions, Section& s,
+                                const NamedMesh& mesh) {
+  bool right = true;
+  const auto wrong = [&](const std::string& problem, const std::string& advice) {
+    s.error(s.has("regions") ? "regions" : "", problem, advice);
+    right = false;
+  };
+  if (regions.empty() && s.has("regions")) wrong("names no region", "the mesh has: " + names_of(mesh.regions));
+  if (regions.empty() && right)
+    for (const auto& [region, attribute] : mesh.regions) regions.push_back(region);
+  for (const auto& region : regions) {
+    const auto found = mesh.regions.find(region);
+    if (found == mesh.regions.end())
+      wrong(fmt::format("the mesh has no region {}", in_quotes(region)), "it has: " + names_of(mesh.regions));
+    else if (const auto [made, is_new] = material_of_region.emplace(found->second, material); !is_new)
+      wrong(fmt::format("region {} is made of {} already", in_quotes(region), in_quotes(made->second)),
+            "give each material its own regions");
   }
-  root.each("averages", "means over the cells whose centre lies in a box", [&](const std::string& name, Section s) {
-    AverageConfig average{name, {}, {}};
-    s.read("lower", average.lower, {.unit = "m", .required = true, .doc = "lower corner of the box"});
-    s.read("upper", average.upper, {.unit = "m", .required = true, .doc = "upper corner of the box"});
-    averages.push_back(average);
-  });
+  return right;
 }
 
 }  // namespace titin

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fe/loads.hpp"
+#include "fe/observers.hpp"
 #include "materials/material.hpp"
 #include "mesh/mesh.hpp"
 #include "solve/newton.hpp"
@@ -14,17 +15,6 @@
 namespace titin {
 
 enum class Inertia { dynamic, quasi_static };
-
-/// Cells whose centre lies in this box of the reference configuration: their means are followed in history.csv.
-struct AverageConfig {
-  std::string name;
-  std::array<double, 3> lower{}, upper{};  // [m]
-};
-
-struct MarkerConfig {
-  std::string name;
-  std::array<double, 3> position{};  // [m] in the reference configuration
-};
 
 struct MuscleConfig {
   Inertia inertia = Inertia::dynamic;
@@ -47,7 +37,7 @@ struct MuscleConfig {
 
  private:
   void bind_materials(Section& root, const NamedMesh& mesh);
-  void bind_observers(Section& root);
+  bool take_regions(const std::string& material, std::vector<std::string> regions, Section& s, const NamedMesh& mesh);
 };
 
 }  // namespace titin

@@ -10,18 +10,8 @@ namespace titin {
 
 namespace {
 
-/// A cell's centre on the border of a box counts as inside: this part of the box's size is round-off of the mesh.
-constexpr double border = 1e-9;
 constexpr double degree = std::numbers::pi / 180;
 const char* const component_name[] = {"x", "y", "z"};
-
-bool inside(const AverageConfig& box, const mfem::Vector& x) {
-  for (int d = 0; d < 3; ++d) {
-    const double margin = border * (box.upper[d] - box.lower[d]);
-    if (x(d) < box.lower[d] - margin || x(d) > box.upper[d] + margin) return false;
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -39,56 +29,40 @@ MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system) {
     }
     for (const auto& [attribute, region_material] : config.material_of_region)
       if (region_material == name) terms_of_region_[attribute] = accounts;
-    if (material->has_fibres()) means_.push_back({name});
   }
-  for (const auto& average : config.averages) means_.push_back({average.name});
-  auto& space = system.space();
-  for (int cell = 0; cell < space.GetNE(); ++cell) cell_means_.push_back(means_of_cell(cell));
-  find_markers();
+  take_means();
+  take_markers();
   for (std::size_t b = 0; b < config.boundaries.size(); ++b)
     if (config.boundaries[b].constrained()) shown_ = "reaction_" + config.boundaries[b].name + "_x";
   if (shown_.empty()) shown_ = "volume";
 }
 
-std::vector<int> MuscleHistory::means_of_cell(int cell) const {
+/// A mean over each material with fibres, and over the cells with fibres of each average.
+void MuscleHistory::take_means() {
   const MuscleConfig& config = system_.config();
-  auto& space = system_.space();
-  if (!system_.material(cell).has_fibres()) return {};
-  const std::string& material = config.material_of_region.at(space.GetParMesh()->GetAttribute(cell));
-  mfem::Vector centre(3);
-  space.GetElementTransformation(cell)->Transform(mfem::Geometries.GetCenter(mfem::Geometry::CUBE), centre);
-  std::vector<int> list;
-  for (std::size_t m = 0; m < means_.size(); ++m) {
-    bool in = means_[m].name == material;
-    for (const auto& average : config.averages)
-      if (average.name == means_[m].name) in = inside(average, centre);
-    if (in) list.push_back(static_cast<int>(m));
+  const auto& space = system_.space();
+  cell_means_.resize(space.GetNE());
+  for (const auto& [name, material] : config.materials) {
+    if (!material->has_fibres()) continue;
+    for (int cell = 0; cell < space.GetNE(); ++cell)
+      if (config.material_of_region.at(space.GetParMesh()->GetAttribute(cell)) == name)
+        cell_means_[cell].push_back(static_cast<int>(means_.size()));
+    means_.push_back({name});
   }
-  return list;
+  for (const AverageConfig& average : config.averages) {
+    for (int cell : average.cells)
+      if (system_.material(cell).has_fibres()) cell_means_[cell].push_back(static_cast<int>(means_.size()));
+    means_.push_back({average.name});
+  }
 }
 
-void MuscleHistory::find_markers() {
-  const auto& config = system_.config().markers;
-  if (config.empty()) return;
-  auto& space = system_.space();
-  mfem::DenseMatrix points(3, static_cast<int>(config.size()));
-  for (std::size_t m = 0; m < config.size(); ++m)
-    for (int d = 0; d < 3; ++d) points(d, m) = config[m].position[d];
-  mfem::Array<int> cells;
-  mfem::Array<mfem::IntegrationPoint> places;
-  space.GetParMesh()->FindPoints(points, cells, places, false);
-  for (std::size_t m = 0; m < config.size(); ++m) {
-    const bool mine = cells[m] >= 0;
-    const bool found = any_of(mine);
-    if (!found)
-      throw InputError({fmt::format("markers.{}: the point ({:g}, {:g}, {:g}) m is not in the mesh; move it inside",
-                                    config[m].name, points(0, m), points(1, m), points(2, m))});
-    Marker marker{config[m].name, -1, {}};
-    // FindPoints gives a point on a shared face to the lowest rank only, and its element id there
-    if (mine && cells[m] < space.GetNE()) {
-      marker.cell = cells[m];
+void MuscleHistory::take_markers() {
+  const auto& space = system_.space();
+  for (const MarkerConfig& config : system_.config().markers) {
+    Marker marker{config.name, config.cell, {}};
+    if (config.cell >= 0) {
       marker.shape.SetSize(system_.tables().nodes());
-      space.GetFE(marker.cell)->CalcShape(places[m], marker.shape);
+      space.GetFE(config.cell)->CalcShape(config.place, marker.shape);
     }
     markers_.push_back(marker);
   }

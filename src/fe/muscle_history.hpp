@@ -44,8 +44,8 @@ class MuscleHistory {
   void add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
   void add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
   void add_boundary_work(const mfem::Vector& u, const mfem::Vector& u_old);
-  void find_markers();
-  std::vector<int> means_of_cell(int cell) const;
+  void take_means();
+  void take_markers();
   Quantity reaction(int boundary, int component) const;
 
   MuscleSystem& system_;

@@ -11,7 +11,7 @@ Each case runs in a folder of its own that holds block.toml, as
     name = "..."
     set = ["key=value"]            # overrides
     edit = [["old", "new"]]        # replacements in block.toml
-    files = { "name" = "text" }    # more files
+    files = { "name" = "text" }    # more files; "<tests/...>" is the text of a file of this repository
     arguments = ["keys", "tme"]    # instead of run block.toml
     ranks = 2                      # under mpirun
     signal = "TERM"                # sent when the history has grown
@@ -35,6 +35,7 @@ import time
 import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
+TOP = HERE.parent.parent
 MPI_ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
@@ -52,6 +53,8 @@ def prepare(case, folder):
     for name, text in case.get("files", {}).items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
+        if text.startswith("<tests/"):
+            text = (TOP / text.strip("<>")).read_text()
         path.write_bytes(text.encode("latin-1"))  # so that cases can hold bytes that are not UTF-8
 
 
