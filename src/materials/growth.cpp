@@ -42,7 +42,8 @@ void Growth::bind(Section& s) {
     if (length > 0) axis = {axis[0] / length, axis[1] / length, axis[2] / length};
     if (s.has(key) && !(length > 0)) s.error(key, "a vector of zero length has no direction", "give [0, 0, 1], say");
   };
-  if (s.describing() || law == Law::area) read_axis("normal", true, "area: normal of the plane that grows");
+  if (s.describing() || law == Law::area)
+    read_axis("normal", !s.describing(), "area, where it must be given: normal of the plane that grows");
   if (s.describing() || law == Law::fibre)
     read_axis("direction", false, "fibre: direction that grows (default: the fibre of each point)");
 }
