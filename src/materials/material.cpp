@@ -81,7 +81,9 @@ void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
   s.read("density", density, {.unit = "kg/m^3", .range = positive, .required = true, .doc = "reference density"});
   parts.density += weight * density;
   const bool resists = read_terms(s, weight, parts);
-  read_volumetric(s, weight, !resists, parts);
+  const auto stores = [](const WeightedTerm& t) { return t.info.stores_energy; };
+  const bool solid = std::any_of(parts.terms.begin(), parts.terms.end(), stores);  // active terms alone: at a point
+  read_volumetric(s, weight, solid && !resists, parts);
 }
 
 using Needs = bool (Term::*)() const;

@@ -202,8 +202,6 @@ MaterialPointer material_of(const Json& entry) {
   if (p.contains("K"))
     text += fmt::format("volumetric = {{ law = \"{}\", bulk_modulus = {} }}\n", p.value("vol", "simo"),
                         quantity(p["K"], entry));
-  else if (entry["model"].get<std::string>().starts_with("active"))
-    text += "volumetric = { law = \"simo\", bulk_modulus = \"1 Pa\" }\n";  // materials need one; the entry has none
   if (p.contains("theta")) text += growth(p);
   for (const char* key : {"a0", "f0"})
     if (p.contains(key)) text += "fibre = " + p[key].dump() + "\n";
@@ -229,10 +227,7 @@ void expect_entry(const Json& entry) {
   const Point point = point_of(entry, *m);
   Mat3 P, expected_P = mat3(entry["P"]);
   Mat9 A, expected_A;
-  if (entry["model"].get<std::string>().starts_with("active"))
-    m->stress(point.input(), &P, &A);
-  else
-    whole_stress(*m, point.input(), &P, &A);
+  whole_stress(*m, point.input(), &P, &A);
   for (double& x : P) x /= unit;
   for (double& x : A) x /= unit;
   for (int r = 0; r < 9; ++r)

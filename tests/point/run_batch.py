@@ -30,6 +30,18 @@ def goh(**more):
     return lambda p: {"law": "goh", **more, **{k: p[k] for k in ("k1", "k2", "kappa", "switch")}}
 
 
+def cann(p):
+    weights = {"1": p["wI1"], "2": p["wI2"]}
+    moduli = {f"moduli_{k}": [w[0], w[1], w[3], w[4]] for k, w in weights.items()}
+    return {"law": "cann", **moduli, **{f"exponents_{k}": [w[2], w[5]] for k, w in weights.items()}}
+
+
+def growth(p):
+    axis = {"area": "normal", "fibre": "direction"}
+    more = {axis[p["kind"]]: p["dir"]} if p["kind"] in axis else {}
+    return {"law": {"iso": "isotropic"}.get(p["kind"], p["kind"]), "stretch": p["theta"], "per": p["per"], **more}
+
+
 HILL = law("hill_active", peak_stress="sigma0", activation="act")
 SHEAR = law("blemker_shear", g1="G1", g2="G2")
 MODELS = {
@@ -55,6 +67,10 @@ MODELS = {
     "flexodeal_muscle": [
         yeoh("sigma0b"), law("hill_passive", peak_stress="sigma0"), lambda p: {**HILL(p), "max_strain_rate": p.get("e0", 5.0)},
     ],
+    "cann": [cann, lambda p: {"law": "cann_fibre", **dict(zip(("w1", "w2", "b"), p["wI4"]))}],
+    "icnn": [lambda p: {"law": "icnn", "amplitude": p["a"], "bias": p["b"], "weight_1": [w[0] for w in p["W"]], "weight_2": [w[1] for w in p["W"]]}],
+    "growth": [law("neo_hookean", mu="mu")],
+    "active": [lambda p: {"law": "active_stress", "activation": 1, "peak_stress": p["ta"], "measure": p["mode"]}],
     "flexodeal_tendon": [yeoh("sigma0b"), law("collagen_table", stress_scale="sigma0")],
 }  # fmt: skip
 
@@ -72,6 +88,8 @@ def question(entry):
         asked |= {key: p[name] for name in names if name in p}
     if "fibres" in p:
         asked["fibre"], asked["second_fibre"] = p["fibres"]
+    if "theta" in p:
+        asked["growth"] = growth(p)
     if p.get("aniso") == "full":
         asked["fibre_invariants"] = "full"
     if "Fn" in p:
