@@ -10,19 +10,11 @@ import re
 import sys
 import tomllib
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pyvista as pv
+from plot_style import COLOUR_MAP, FAINT, INK, STYLE, draw_curves, prefixed
 
-INK, FAINT = "#22262e", "#9aa1ad"
-COLOURS = ["#2f6f9f", "#d1603d", "#4f9a68", "#8d6cab", "#c79a2d", "#5b6472"]
-# Contracted is dark, stretched is pale: lightness runs one way, so it also reads in grey.
-COLOUR_MAP = matplotlib.colors.LinearSegmentedColormap.from_list(
-    "muscle", ["#4a1029", "#8f1d2f", "#c8452f", "#e98a4c", "#f6c887", "#fdf3d8"]
-)
 # Fields worth a picture, best first; what each is called in it.
 FIELDS = {
     "fibre_stretch": "fibre stretch",
@@ -31,12 +23,6 @@ FIELDS = {
     "velocity": "speed",
 }
 SMALL = 0.01  # curves below this part of the largest one are left out
-STYLE = {
-    "font.family": "sans-serif", "font.size": 9.5, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": FAINT,
-    "axes.linewidth": 0.8, "axes.spines.top": False, "axes.spines.right": False, "xtick.color": INK, "ytick.color": INK,
-    "xtick.direction": "out", "axes.grid": True, "grid.color": "#e9ebef", "grid.linewidth": 0.8, "axes.axisbelow": True,
-    "axes.titlesize": 10, "axes.titleweight": "bold", "axes.titlelocation": "left",
-}  # fmt: skip
 
 
 def fail(message):
@@ -81,15 +67,6 @@ def facts_of(folder):
 # ---- curves ----------------------------------------------------------------------------------------------------------
 
 
-def prefixed(values):
-    """A factor and an SI prefix that bring the largest of these numbers between 1 and 1000."""
-    largest = max((np.nanmax(np.abs(v)) for v in values), default=0)
-    for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k"), (1, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n")):
-        if largest * factor >= 1:
-            return factor, prefix
-    return 1, ""
-
-
 def reactions(history):
     """The force that each held boundary puts on the body; a component that mirrors one before it is left out."""
     found = {}
@@ -116,35 +93,6 @@ def energies(history):
             found[name if kind == "energy" else f"work of {name}"] = values
     largest = max((np.max(np.abs(v)) for v in found.values()), default=0)
     return {name: v for name, v in found.items() if np.max(np.abs(v)) > SMALL * largest}
-
-
-def spread(wanted, gap):
-    """Heights near the wanted ones, at least `gap` apart."""
-    order = np.argsort(wanted)
-    heights = np.array(wanted, dtype=float)
-    for _ in range(200):
-        for low, high in zip(order, order[1:]):
-            short = gap - (heights[high] - heights[low])
-            if short > 1e-9:
-                heights[low] -= short / 2
-                heights[high] += short / 2
-    return heights
-
-
-def draw_curves(axes, time, curves, quantity, unit):
-    """Lines with their names at their right ends."""
-    factor, prefix = prefixed(curves.values())
-    axes.set_title(f"{quantity} [{prefix}{unit}]")
-    axes.axhline(0, color=FAINT, linewidth=0.8)
-    for colour, values in zip(COLOURS * 3, curves.values()):
-        axes.plot(time, values * factor, color=colour, linewidth=1.8, solid_capstyle="round")
-    axes.margins(x=0.0, y=0.08)
-    low, high = axes.get_ylim()
-    heights = spread([values[-1] * factor for values in curves.values()], 0.075 * (high - low))
-    for colour, name, height in zip(COLOURS * 3, curves, heights):
-        axes.annotate(name, (time[-1], height), xytext=(6, 0), textcoords="offset points", color=colour, va="center",
-                      fontsize=8.5, annotation_clip=False)  # fmt: skip
-    axes.tick_params(length=3)
 
 
 # ---- the body --------------------------------------------------------------------------------------------------------
