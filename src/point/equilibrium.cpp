@@ -13,6 +13,7 @@ namespace {
 constexpr int most_iterations = 60;
 // Relative to the stiffness. Below `small` a residual that no longer falls is round-off; above it Newton is lost.
 constexpr double small = 1e-9, exact = 1e-16;
+constexpr double falls = 0.1;                 // what a step of Newton near the solution leaves of the residual, at most
 constexpr double shortest_step = 1.0 / 4096;  // of a Newton step
 constexpr double smallest_part = 1.0 / 1024;  // of the way to the control
 
@@ -121,10 +122,12 @@ Outcome Equilibrium::newton(const MixedControl& control, const PointInput& step,
     if (!residual.solve()) return {k, "nothing resists a free component of F"};
     double part = 1;
     PointState next = residual.moved(state, part);
-    while (!(residual.evaluate(next, false) < size)) {
-      if (size < small) return {k, ""};
+    double next_size = residual.evaluate(next, false);
+    if (size < small && !(next_size < falls * size)) return {k, ""};
+    while (!(next_size < size)) {
       if (part < shortest_step) return {k, "no smaller residual was found"};
       next = residual.moved(state, part /= 2);
+      next_size = residual.evaluate(next, false);
     }
     state = next;
   }

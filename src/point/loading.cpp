@@ -197,7 +197,7 @@ void LoadingConfig::bind_drive(Section& s) {
   by_stress = given == "stress";
   if (s.describing() || loading == Loading::components) return;
   const std::string wanted = is_shear() ? "shear" : "stretch";
-  if (given.empty() && program != Program::isotonic)  // which may be isometric before the release
+  if (given.empty() && needs_drive && program != Program::isotonic)  // which may be isometric before the release
     s.error("", "nothing drives the point",
             fmt::format("add {}, or stress = \"10 kPa\"", is_shear() ? "shear = 0.5" : "stretch = 1.5"));
   else if (!given.empty() && given != wanted && !by_stress)

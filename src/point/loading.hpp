@@ -43,7 +43,8 @@ struct LoadingConfig {
   double ratio = 1;
   int plane = 1;           ///< component of F that simple shear drives
   bool by_stress = false;  ///< the drive is a stress
-  Table drive = 1;         ///< target of the program, or the whole course
+  bool needs_drive = true;
+  Table drive = 1;  ///< target of the program, or the whole course
   std::array<ComponentDrive, 9> components;
 
   Program program = Program::ramp;

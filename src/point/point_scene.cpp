@@ -78,6 +78,11 @@ class Places {
   std::set<std::string> material_, any_term_;
 };
 
+void bind_map(Section& point, MapConfig& map) {
+  Section s = point.section("map", "--map: the box of stretch and activation");
+  map.bind(s);
+}
+
 }  // namespace
 
 PointText point_text_of_file(const std::string& file, const std::vector<std::string>& overrides) {
@@ -112,7 +117,7 @@ PointText point_text_of_laws(const std::vector<std::string>& names, const std::v
   return point;
 }
 
-PointScene PointScene::read(const PointText& text) {
+PointScene PointScene::read(const PointText& text, PointTask task) {
   Config config = text.config();
   Section root = config.root();
   for (const char* name : of_scenes) root.leave(name);
@@ -125,8 +130,11 @@ PointScene PointScene::read(const PointText& text) {
     const auto material = Material::read(s);
     if (name == scene.material_name) scene.material = material;
   }
+  scene.loading.needs_drive = task == PointTask::experiment;
   scene.loading.bind(point);
+  if (task == PointTask::map || point.has("map")) bind_map(point, scene.map);
   config.finish();
+  scene.keys = config.keys();
   return scene;
 }
 
@@ -136,6 +144,8 @@ std::vector<KeyRecord> point_keys() {
   choose_material(point, {});
   LoadingConfig loading;
   loading.bind(point);
+  MapConfig map;
+  bind_map(point, map);
   return config.keys();
 }
 

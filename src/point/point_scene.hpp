@@ -8,6 +8,7 @@
 
 #include "base/config.hpp"
 #include "materials/material.hpp"
+#include "point/ellipticity_map.hpp"
 #include "point/loading.hpp"
 
 namespace titin {
@@ -27,12 +28,17 @@ PointText point_text_of_file(const std::string& file, const std::vector<std::str
 /// volumetric law the point is incompressible.
 PointText point_text_of_laws(const std::vector<std::string>& laws, const std::vector<std::string>& overrides);
 
+/// A map needs no drive.
+enum class PointTask { experiment, map };
+
 struct PointScene {
   std::string material_name;
   std::shared_ptr<const Material> material;
   LoadingConfig loading;
+  MapConfig map;
+  std::vector<KeyRecord> keys;  ///< all that were asked for
 
-  static PointScene read(const PointText& text);
+  static PointScene read(const PointText& text, PointTask task = PointTask::experiment);
 };
 
 std::vector<KeyRecord> point_keys();
