@@ -83,7 +83,8 @@ class Section {
   void read(std::string_view name, std::string& value, Key key);
   void read(std::string_view name, std::vector<std::string>& value, Key key);  ///< a list, or one string
   /// A constant ("3 mm") or {time = "0, 0.1 s", value = "0, 3 mm"} or {file = "strain.csv"} (two columns: time in s,
-  /// value in the key's SI unit), the latter two with an optional `scale` quantity that multiplies pure-number values.
+  /// value in the key's SI unit, or headed by other units), the latter two with an optional `scale` quantity that
+  /// multiplies pure-number values.
   void read(std::string_view name, Table& value, Key key);
 
   /// One of a few words, each with its enumerator.

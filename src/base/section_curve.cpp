@@ -33,17 +33,17 @@ class Curve {
     double scale = 1;
     section_.read("scale", scale, {.unit = asked_.key.unit});
     std::vector<double> time, value;
-    if (!(has_file ? read_file(time, value) : read_points(time, value, has_scale))) return std::nullopt;
+    const std::string unit(has_scale ? "" : asked_.key.unit);
+    if (!(has_file ? read_file(time, value, unit) : read_points(time, value, unit))) return std::nullopt;
     for (double& v : value) v *= scale;
     if (!in_range(asked_, value)) return std::nullopt;
     return Table(std::move(time), std::move(value));
   }
 
  private:
-  bool read_points(std::vector<double>& time, std::vector<double>& value, bool has_scale) {
+  bool read_points(std::vector<double>& time, std::vector<double>& value, const std::string& unit) {
     section_.read("time", time, {.unit = "s", .required = true, .doc = "times of the curve"});
-    section_.read("value", value,
-                  {.unit = has_scale ? "" : asked_.key.unit, .required = true, .doc = "values at these times"});
+    section_.read("value", value, {.unit = unit, .required = true, .doc = "values at these times"});
     if (time.empty() || value.empty()) return false;
     const auto wrong = std::adjacent_find(time.begin(), time.end(), [](double a, double b) { return b <= a; });
     if (wrong != time.end())
@@ -59,17 +59,15 @@ class Curve {
     return false;
   }
 
-  bool read_file(std::vector<double>& time, std::vector<double>& value) {
+  bool read_file(std::vector<double>& time, std::vector<double>& value, const std::string& unit) {
     std::string file;
-    section_.read("file", file, {.doc = "two columns: time in s, value"});
+    section_.read("file", file, {.doc = "two columns: time in s and value, or headed by their units: t [ms], u [mm]"});
     const std::string path = section_.existing_file("file", file);
     if (path.empty()) return false;
     const TextFile text = read_text_file(path);
-    Columns columns = parse_columns(text.text);
+    Columns columns = parse_columns(text.text, unit);
     const std::string problem = text.problem.empty() ? columns.problem : text.problem;
-    if (!problem.empty())
-      section_.error("file", fmt::format("file {}: {}", in_quotes(file), problem),
-                     "write two columns: time in s, increasing, and value");
+    if (!problem.empty()) section_.error("file", fmt::format("file {}: {}", in_quotes(file), problem), columns.advice);
     time = std::move(columns.time);
     value = std::move(columns.value);
     return problem.empty();

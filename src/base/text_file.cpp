@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include "base/parallel.hpp"
+#include "base/units.hpp"
 #include "base/words.hpp"
 
 namespace titin {
@@ -60,21 +62,71 @@ std::optional<double> number(std::string_view word) {
   return x;
 }
 
-/// Adds one line; says what is wrong with it.
-std::string add_line(const std::vector<std::string_view>& columns, Columns& table, int& last_line, int line) {
-  if (columns.size() != 2)
-    return fmt::format("has {} column{}, not two (time, value)", columns.size(), columns.size() == 1 ? "" : "s");
-  double x[2];
-  for (int i = 0; i < 2; ++i) {
-    const auto value = number(columns[i]);
-    if (!value || !std::isfinite(*value)) return fmt::format("{} is not a finite number", in_quotes(columns[i]));
-    x[i] = *value;
+/// A piece of the head: name, or name [unit]; maybe in quotation marks.
+NumberTable::Column heading(std::string_view piece) {
+  std::string text(trim(piece));
+  if (text.size() > 1 && text.front() == '"' && text.back() == '"') {
+    text = text.substr(1, text.size() - 2);
+    for (std::size_t at = 0; (at = text.find("\"\"", at)) != std::string::npos; ++at) text.erase(at, 1);
   }
-  if (!table.time.empty() && x[0] <= table.time.back())
-    return fmt::format("time {} s does not come after {} s of line {}", x[0], table.time.back(), last_line);
-  table.time.push_back(x[0]);
-  table.value.push_back(x[1]);
-  last_line = line;
+  const auto open = text.rfind('[');
+  if (open == std::string::npos || text.back() != ']') return {text, "", {}};
+  return {std::string(trim(text.substr(0, open))), text.substr(open + 1, text.size() - open - 2), {}};
+}
+
+/// The head's pieces: parted by commas, or if there is none by white space outside of brackets.
+std::vector<NumberTable::Column> headings(std::string_view line) {
+  const bool by_commas = line.find(',') != std::string_view::npos;
+  std::vector<NumberTable::Column> columns;
+  std::string piece;
+  char inside = 0;  // of quotation marks or brackets
+  const auto add = [&] {
+    const std::string text(trim(piece));
+    if (!by_commas && !columns.empty() && text.starts_with('['))
+      columns.back() = heading(columns.back().name + " " + text);  // "t [ms]": the gap parts no columns
+    else if (by_commas || !text.empty())
+      columns.push_back(heading(text));
+    piece.clear();
+  };
+  for (const char c : line) {
+    const bool gap = by_commas ? c == ',' : c == ' ' || c == '\t' || c == '\r';
+    if (c == inside)
+      inside = 0;
+    else if (inside == 0 && (c == '"' || c == '['))
+      inside = c == '[' ? ']' : c;
+    if (gap && inside == 0)
+      add();
+    else
+      piece += c;
+  }
+  add();
+  return columns;
+}
+
+bool names_units(const std::vector<NumberTable::Column>& columns) {
+  return std::any_of(columns.begin(), columns.end(), [](const auto& column) { return !column.unit.empty(); });
+}
+
+/// Adds one line; says what is wrong with it.
+std::string add_row(const std::vector<std::string_view>& words, NumberTable& table, int line) {
+  if (words.size() != table.columns.size())
+    return fmt::format("line {}: has {}, not {} as line {}", line, count(words.size(), "number"), table.columns.size(),
+                       table.lines.front());
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto value = number(words[i]);
+    if (!value || !std::isfinite(*value))
+      return fmt::format("line {}: {} is not a finite number", line, in_quotes(words[i]));
+    table.columns[i].values.push_back(*value);
+  }
+  return "";
+}
+
+/// The first row: as many columns as it has numbers, named by the head if that has as many.
+std::string begin(NumberTable& table, std::vector<NumberTable::Column> head, std::size_t columns) {
+  if (head.size() != columns && names_units(head) && table.head > 0)
+    return fmt::format("line {}: heads {}, and {} follow", table.head, count(head.size(), "column"), columns);
+  if (head.size() != columns) head.assign(columns, {});
+  table.columns = std::move(head);
   return "";
 }
 
@@ -90,22 +142,67 @@ TextFile read_text_file(const std::string& path) {
 
 std::string file_problem(const std::string& path) { return broadcast(is_root() ? problem_here(path) : ""); }
 
-Columns parse_columns(const std::string& text) {
-  Columns table;
-  int line = 0, last_line = 0;
-  bool may_be_names = true;
+NumberTable parse_numbers(const std::string& text) {
+  NumberTable table;
+  std::vector<NumberTable::Column> head;
+  int line = 0;
   for (const std::string_view row : split(text, '\n')) {
     ++line;
-    const auto columns = columns_of(row);
-    if (columns.empty()) continue;
-    const bool names = may_be_names && !number(columns.front());
-    may_be_names = false;
-    if (names) continue;
-    const std::string problem = add_line(columns, table, last_line, line);
-    if (!problem.empty()) return {{}, {}, fmt::format("line {}: {}", line, problem)};
+    const auto words = columns_of(row);
+    const bool is_comment = words.empty() && row.find('#') != std::string_view::npos;
+    if (table.columns.empty() && is_comment && table.head == 0) {
+      auto said = headings(row.substr(row.find('#') + 1));
+      if (names_units(said)) head = std::move(said);
+    }
+    if (words.empty()) continue;
+    if (table.columns.empty() && table.head == 0 && !number(words.front())) {
+      head = headings(row.substr(0, row.find('#')));
+      table.head = line;
+      continue;
+    }
+    if (table.lines.empty()) table.problem = begin(table, std::move(head), words.size());
+    table.lines.push_back(line);
+    if (table.problem.empty()) table.problem = add_row(words, table, line);
+    if (!table.problem.empty()) return table;
   }
-  if (table.time.empty()) table.problem = "holds no numbers";
+  if (table.lines.empty()) table.problem = "holds no numbers";
   return table;
+}
+
+std::string convert_column(NumberTable& table, std::size_t column, const std::string& si) {
+  auto& [name, unit, values] = table.columns[column];
+  if (unit.empty() || unit == "-") return "";
+  const std::string problem = units::convert(values, unit, si);
+  return problem.empty() ? "" : fmt::format("column {}: {}", in_quotes(name), problem);
+}
+
+std::string time_problem(const NumberTable& table, std::size_t column) {
+  const std::vector<double>& time = table.columns[column].values;
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (time[i] <= time[i - 1])
+      return fmt::format("line {}: time {} s does not come after {} s of line {}", table.lines[i], time[i], time[i - 1],
+                         table.lines[i - 1]);
+  return "";
+}
+
+Columns parse_columns(const std::string& text, const std::string& value_unit) {
+  NumberTable table = parse_numbers(text);
+  Columns columns{{}, {}, table.problem, "write two columns: time in s, increasing, and value"};
+  if (columns.problem.empty() && table.columns.size() != 2)
+    columns.problem = fmt::format("line {}: has {}, not two (time, value)", table.lines.front(),
+                                  count(table.columns.size(), "column"));
+  const std::string wanted[] = {"s", value_unit};
+  for (int i = 0; i < 2 && columns.problem.empty(); ++i) {
+    columns.problem = convert_column(table, i, wanted[i]);
+    if (!columns.problem.empty())
+      columns.advice =
+          fmt::format("name the unit of {}, such as [{}]", units::noun(wanted[i]), wanted[i].empty() ? "%" : wanted[i]);
+  }
+  if (columns.problem.empty()) columns.problem = time_problem(table, 0);
+  if (!columns.problem.empty()) return columns;
+  columns.time = std::move(table.columns[0].values);
+  columns.value = std::move(table.columns[1].values);
+  return columns;
 }
 
 }  // namespace titin

@@ -13,12 +13,30 @@ struct TextFile {
 TextFile read_text_file(const std::string& path);   ///< collective
 std::string file_problem(const std::string& path);  ///< "" when there is such a file; collective
 
-/// Two columns of numbers, parted by white space or a comma: time [s], strictly increasing, and value. '#' starts a
-/// comment; one line of names may head the columns. `problem` names the line.
-struct Columns {
-  std::vector<double> time, value;
+/// Columns of numbers, parted by white space or commas. '#' starts a comment. A line may head them, "name" or "name
+/// [unit]" for each, also as a comment. `problem` names the line.
+struct NumberTable {
+  struct Column {
+    std::string name, unit;  ///< as written; "" when the file does not say
+    std::vector<double> values;
+  };
+  std::vector<Column> columns;
+  std::vector<int> lines;  ///< of each row in the file
+  int head = 0;            ///< line of the names
   std::string problem;
 };
-Columns parse_columns(const std::string& text);
+NumberTable parse_numbers(const std::string& text);
+
+/// Turns a column into SI when it names a unit: what is wrong with that, or "".
+std::string convert_column(NumberTable& table, std::size_t column, const std::string& si);
+/// What is wrong with a column of times [s], which must increase, or "".
+std::string time_problem(const NumberTable& table, std::size_t column);
+
+/// Two columns: time, strictly increasing, and value; in SI.
+struct Columns {
+  std::vector<double> time, value;
+  std::string problem, advice;
+};
+Columns parse_columns(const std::string& text, const std::string& value_unit);
 
 }  // namespace titin

@@ -119,22 +119,32 @@ void share_unit(std::vector<Entry>& entries, std::string_view whole, std::string
   for (Entry& e : entries) e.unit = last;
 }
 
+struct UnknownUnit {};
+struct WrongDimension {};
+
+Converter converter(std::string_view unit, const std::string& si) {
+  const Unit from = known_unit(unit);
+  const Unit to = si.empty() ? Unit(ut_get_dimensionless_unit_one(unit_system()), ut_free) : known_unit(si);
+  if (!from) throw UnknownUnit();
+  if (!to) throw std::logic_error(fmt::format("the key's own unit \"{}\" is unknown", si));
+  if (!ut_are_convertible(from.get(), to.get())) throw WrongDimension();
+  return {ut_get_converter(from.get(), to.get()), cv_free};
+}
+
 double to_si(const Entry& entry, std::string_view whole, const std::string& si) {
   if (entry.unit.empty()) return entry.number;
-  const Unit from = known_unit(entry.unit);
-  const Unit to = si.empty() ? Unit(ut_get_dimensionless_unit_one(unit_system()), ut_free) : known_unit(si);
   const std::string such = fmt::format("write {}, such as \"{}\"", noun(si), example(si));
-  if (!from) throw Failure{fmt::format("{} has an unknown unit \"{}\"", in_quotes(whole), printable(entry.unit)), such};
-  if (!to) throw std::logic_error(fmt::format("the key's own unit \"{}\" is unknown", si));
-  if (!ut_are_convertible(from.get(), to.get()))
+  try {
+    const double value = cv_convert_double(converter(entry.unit, si).get(), entry.number);
+    if (std::isfinite(value)) return value;
+  } catch (UnknownUnit) {
+    throw Failure{fmt::format("{} has an unknown unit \"{}\"", in_quotes(whole), printable(entry.unit)), such};
+  } catch (WrongDimension) {
     throw Failure{fmt::format("{} is not {}: \"{}\" cannot be converted to {}", in_quotes(whole), noun(si),
                               printable(entry.unit), si.empty() ? "a number" : si),
                   such};
-  const Converter convert(ut_get_converter(from.get(), to.get()), cv_free);
-  const double value = cv_convert_double(convert.get(), entry.number);
-  if (!std::isfinite(value))
-    throw Failure{fmt::format("{} is too large for a number in {}", in_quotes(whole), si), such};
-  return value;
+  }
+  throw Failure{fmt::format("{} is too large for a number in {}", in_quotes(whole), si), such};
 }
 
 }  // namespace
@@ -161,6 +171,17 @@ Parsed parse(std::string_view text, const std::string& si) {
     result.advice = failure.advice;
   }
   return result;
+}
+
+std::string convert(std::vector<double>& values, std::string_view unit, const std::string& si) try {
+  const Converter convert = converter(unit, si);
+  for (double& value : values) value = cv_convert_double(convert.get(), value);
+  const bool finite = std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+  return finite ? "" : fmt::format("a value in {} is too large for a number in {}", in_quotes(unit), si);
+} catch (UnknownUnit) {
+  return fmt::format("{} is an unknown unit", in_quotes(unit));
+} catch (WrongDimension) {
+  return fmt::format("{} is not the unit of {}", in_quotes(unit), noun(si));
 }
 
 std::string text(double value, std::string_view si) { return fmt::format("{}{}{}", value, si.empty() ? "" : " ", si); }

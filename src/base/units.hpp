@@ -19,6 +19,9 @@ struct Parsed {
 /// A number without its unit, a unit that nobody knows and a unit of another dimension are three different problems.
 Parsed parse(std::string_view text, const std::string& si);
 
+/// Turns values in `unit` into SI. Returns what is wrong with the unit, or "".
+std::string convert(std::vector<double>& values, std::string_view unit, const std::string& si);
+
 /// What a quantity with this SI unit is called, "a time", and how one is written, "25 ms".
 std::string noun(std::string_view si);
 std::string example(std::string_view si);
