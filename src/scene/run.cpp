@@ -79,6 +79,7 @@ class Run {
     const StopSignals signals;
     Model& model = *scene_.model;
     Output out(scene_.output, folder_, model);
+    scene_.reference.add(0, out.quantities());
     const Progress progress(out.shown());
     Outcome outcome = Outcome::finished;
     while (!clock_.done()) {
@@ -96,6 +97,7 @@ class Run {
       model.accept();
       clock_.accept(step, model.largest_dt());
       out.write(clock_);
+      scene_.reference.add(clock_.time(), out.quantities());
       progress.line(clock_, step, out.shown());
     }
     out.finish(clock_);
@@ -137,6 +139,7 @@ class Run {
     summary_.time = clock_.time();
     summary_.newton.cuts = clock_.cuts();
     for (const Quantity& q : scene_.model->conservation()) summary_.conservation[q.name] = q.value;
+    summary_.errors = scene_.reference.errors();
     for (const Quantity& q : scene_.model->errors()) summary_.errors[q.name] = q.value;
     add_costs(summary_);
     folder_.write("run.json", summary_.json());

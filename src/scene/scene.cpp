@@ -16,6 +16,7 @@ struct SceneConfig {
   MeshConfig mesh;
   ClockConfig clock;
   OutputConfig output;
+  Reference reference;
   MuscleConfig muscle;
 
   NamedMesh bind(Section root) {
@@ -29,6 +30,8 @@ struct SceneConfig {
     Section out = root.section("output", "what is written, and when");
     output.bind(out);
     muscle.bind(root, named);
+    Section other = root.section("reference", "a history to compare with");
+    reference.bind(other);
     root.leave("test");
     return named;
   }
@@ -41,8 +44,10 @@ Scene Scene::read(const std::string& file, const std::vector<std::string>& overr
   SceneConfig config;
   NamedMesh mesh = config.bind(text.root());
   text.finish();
-  Scene scene{config.title, config.clock, config.output, nullptr, text.resolved()};
+  Scene scene{config.title, config.clock, config.output, nullptr, std::move(config.reference), text.resolved()};
   scene.model = std::make_unique<Muscle>(std::move(mesh), std::move(config.muscle));
+  scene.reference.match(scene.model->quantities(), text.root().section("reference"));
+  text.finish();
   return scene;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/config.hpp"
 #include "scene/output.hpp"
+#include "scene/reference.hpp"
 #include "solve/clock.hpp"
 #include "solve/model.hpp"
 
@@ -18,6 +19,7 @@ struct Scene {
   ClockConfig clock;
   OutputConfig output;
   std::unique_ptr<Model> model;
+  Reference reference;   ///< what run.json's errors are against; may be none
   std::string resolved;  ///< the scene as it was understood: a scene file that runs the same
 
   /// Collective. Throws InputError with all that is wrong, before anything large is allocated.

@@ -109,6 +109,19 @@ TEST_F(Runs, AreRepeatedByTheirResolvedScene) {
   EXPECT_EQ(without_head(text_of("again/resolved.toml")), without_head(text_of("out/resolved.toml")));
 }
 
+// A run is its own reference; one with half the steps is off by the error of its larger ones.
+TEST_F(Runs, SayHowFarTheyAreFromAReference) {
+  run(options({"output.fields=false"}, "first"));
+  EXPECT_TRUE(report("first")["errors"].empty());
+  const std::string against = "reference.history=" + (path / "first/history.csv").string();
+  run(options({"output.fields=false", against}, "again"));
+  EXPECT_EQ(report("again")["errors"]["reaction_x+_x_l2"], 0);
+  EXPECT_EQ(report("again")["errors"]["volume_max"], 0);
+  run(options({"output.fields=false", "time.step=50 ms", against}, "coarse"));
+  EXPECT_GT(report("coarse")["errors"]["reaction_x+_x_l2"], 0);
+  EXPECT_LT(report("coarse")["errors"]["reaction_x+_x_max"], 0.1);
+}
+
 TEST_F(Runs, WriteFieldsByStepsOrByTimeAndAlwaysAtTheEnd) {
   run(options({"output.every=3"}, "steps"));
   EXPECT_EQ(fields("steps"), 3);  // 0, 3 and the last, 4
