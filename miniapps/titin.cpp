@@ -1,5 +1,5 @@
 /// The driver: `titin run | check | materials | keys | help`. Exit codes: 0 finished, 1 input error, 2 did not
-/// converge, 3 stopped by a signal, 4 internal error.
+/// converge, 3 stopped by a signal, 4 internal error, or output that cannot be written.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <new>
@@ -8,6 +8,7 @@
 #include "base/log.hpp"
 #include "base/parallel.hpp"
 #include "base/version.hpp"
+#include "io/output_error.hpp"
 #include "scene/manual.hpp"
 #include "scene/run.hpp"
 #include "solve/petsc.hpp"
@@ -85,6 +86,8 @@ int guarded(const std::function<int()>& act) {
     return act();
   } catch (const InputError& error) {
     return report(error.messages(), input_error);
+  } catch (const OutputError& error) {
+    return report({error.what()}, internal_error);
   } catch (const std::bad_alloc&) {
     return report({"out of memory; use more nodes, or fewer cells"}, internal_error);
   } catch (const std::exception& error) {

@@ -1,7 +1,8 @@
 #include "io/paraview.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+
+#include "io/output_error.hpp"
 
 namespace titin {
 
@@ -24,7 +25,7 @@ void ParaView::write(int cycle, double time) {
   collection_.SetTime(time);
   collection_.Save();
   if (collection_.Error() != mfem::DataCollection::No_Error)
-    throw std::runtime_error("the fields for ParaView cannot be written; look at the permissions and the free space");
+    throw OutputError(collection_.GetPrefixPath() + collection_.GetCollectionName());
 }
 
 }  // namespace titin

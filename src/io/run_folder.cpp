@@ -9,6 +9,7 @@
 
 #include "base/config.hpp"
 #include "base/parallel.hpp"
+#include "io/output_error.hpp"
 
 namespace titin {
 namespace {
@@ -88,9 +89,7 @@ void RunFolder::write(const std::string& name, const std::string& text) const {
   const bool written = static_cast<bool>(std::ofstream(part, std::ios::binary) << text << std::flush);
   std::error_code error;
   if (written) fs::rename(part, file(name), error);
-  if (!written || error)
-    throw std::runtime_error(
-        fmt::format("{} cannot be written; look at the permissions and the free space", file(name)));
+  if (!written || error) throw OutputError(file(name));
 }
 
 }  // namespace titin

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/parallel.hpp"
+#include "io/output_error.hpp"
 
 namespace titin {
 namespace {
@@ -27,8 +28,7 @@ TimeSeries::TimeSeries(const std::string& path, const std::vector<Column>& colum
   std::vector<std::string> header;
   for (const Column& c : columns) header.push_back(csv_field(c.unit.empty() ? c.name : c.name + " [" + c.unit + "]"));
   out_ << fmt::format("{}\n", fmt::join(header, ",")) << std::flush;
-  if (!out_)
-    throw std::runtime_error(fmt::format("{} cannot be written; look at the permissions and the free space", path));
+  if (!out_) throw OutputError(path);
 }
 
 void TimeSeries::add(const std::vector<double>& row) {
@@ -36,7 +36,7 @@ void TimeSeries::add(const std::vector<double>& row) {
   if (row.size() != columns_)
     throw std::logic_error(fmt::format("{}: {} values for {} columns", path_, row.size(), columns_));
   out_ << fmt::format("{}\n", fmt::join(row, ",")) << std::flush;
-  if (!out_) throw std::runtime_error(fmt::format("{} cannot be written any more; look at the free space", path_));
+  if (!out_) throw OutputError(path_);
 }
 
 }  // namespace titin

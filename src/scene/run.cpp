@@ -8,6 +8,7 @@
 #include "base/timers.hpp"
 #include "base/version.hpp"
 #include "base/words.hpp"
+#include "io/output_error.hpp"
 #include "io/run_folder.hpp"
 #include "scene/output.hpp"
 #include "scene/progress.hpp"
@@ -53,8 +54,7 @@ class Run {
     folder_.write("resolved.toml", fmt::format("# {} as Titin {} understood it: in SI units, with defaults.\n{}",
                                                options.scene_file, version(), scene.resolved));
     folder_.write("run.json", summary_.json());
-    if (any_of(!logging::open_file(folder_.file("run.log"))))
-      throw std::runtime_error(fmt::format("{} cannot be written", folder_.file("run.log")));
+    if (any_of(!logging::open_file(folder_.file("run.log")))) throw OutputError(folder_.file("run.log"));
   }
 
   Outcome go() {
@@ -68,7 +68,10 @@ class Run {
     } catch (const std::exception& error) {
       summary_.status = "failed";
       summary_.reason = error.what();
-      folder_.write("run.json", summary_.json());
+      try {
+        folder_.write("run.json", summary_.json());
+      } catch (const OutputError&) {
+      }  // the first error tells more
       throw;
     }
   }

@@ -15,6 +15,7 @@ Each case runs in a folder of its own that holds block.toml, as
     arguments = ["keys", "tme"]    # instead of run block.toml
     ranks = 2                      # under mpirun
     signal = "TERM"                # sent when the history has grown
+    largest_file = 4000            # bytes: from when the history has grown, the disk is full for larger files
     exit = 1                       # the default
     errors = ["..."]               # all of stderr; "<any>" stands for any text, "<here>" for the case's folder
     output = "..."                 # a part of stdout
@@ -27,6 +28,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -36,10 +38,7 @@ import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent.parent
-MPI_ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-}  # fmt: skip
+MPI_ENVIRONMENT = dict(re.findall(r"\b(OMPI_\w+)=(\S+)", (TOP / "scripts" / "mpi_environment").read_text()))
 LONGEST = 60  # [s] for one case; most take a fraction of a second
 
 
@@ -74,7 +73,11 @@ def run(case, titin, folder):
     if case.get("ranks", 1) > 1:
         command = ["mpirun", "--quiet", "-np", str(case["ranks"]), *command]
     process = subprocess.Popen(command, cwd=folder, env=os.environ | MPI_ENVIRONMENT, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               restore_signals="largest_file" not in case)  # fmt: skip
+    if "largest_file" in case:  # the signal that goes with it stays ignored, as it is in Python: the write fails
+        wait_for_steps(folder, process)
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (case["largest_file"], resource.RLIM_INFINITY))
     if "signal" in case:
         wait_for_steps(folder, process)
         process.send_signal(signal.Signals["SIG" + case["signal"]])
