@@ -34,6 +34,7 @@ import time
 import tomllib
 
 TOP = pathlib.Path(__file__).resolve().parent.parent.parent
+MPI_ENVIRONMENT = dict(re.findall(r"\b(OMPI_\w+)=(\S+)", (TOP / "scripts" / "mpi_environment").read_text()))
 DEFAULT_RANK_TOLERANCE = 1e-6
 SAME_TIME = 1e-9  # [s], well below any step
 
@@ -105,10 +106,7 @@ def run(arguments, test, folder):
     command = [str(arguments.titin), "run", str(arguments.scene), *test.get("set", []), "-o", str(folder), "--overwrite"]
     if arguments.ranks > 1:
         command = [arguments.mpirun, "-np", str(arguments.ranks)] + command
-    environment = os.environ | {
-        "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-        "OMPI_MCA_hwloc_base_binding_policy": "none",
-    }  # fmt: skip
+    environment = os.environ | MPI_ENVIRONMENT
     print("$", " ".join(command), flush=True)
     begin = time.monotonic()
     result = subprocess.run(command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
