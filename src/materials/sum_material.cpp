@@ -20,15 +20,6 @@ std::array<Lanes, size> gather_all(const std::array<double, size>* points, int f
   return x;
 }
 
-template <std::size_t size>
-void scatter_all(const std::array<Lanes, size>& x, std::array<double, size>* points, int first, int n) {
-  alignas(64) double lanes[size][lane_count];  // by way of memory: taking lanes out of registers one by one is slow
-  for (std::size_t c = 0; c < size; ++c) x[c].copy_to(lanes[c], std::experimental::vector_aligned);
-  const int count = std::min(lane_count, n - first);
-  for (std::size_t c = 0; c < size; ++c)
-    for (int lane = 0; lane < count; ++lane) points[first + lane][c] = lanes[c][lane];
-}
-
 /// Directions of the points, or of the material where the caller gives none.
 Vector3<Lanes> directions(const Vec3* given, const Vec3& own, int first, int n) {
   if (given) return gather_all(given, first, n);
@@ -62,22 +53,24 @@ class Block {
       if (!used_.has(Invariant(a))) continue;
       W_.first[a].fill(0);
       if (want_second)
-        for (int b = 0; b < invariant_count; ++b) W_.second[a][b].fill(0);
+        for (int b = 0; b < invariant_count; ++b)
+          if (used_.has(Invariant(b)) || Invariant(b) == Invariant::rate) W_.second[a][b].fill(0);
     }
     for (const WeightedTerm& t : terms) t.term->add_derivatives(points, t.weight, W_);
   }
 
   void write(Mat3* P, Mat9* A) const {
     for (int g = 0; g < active_groups(); ++g) {
-      EnergyDerivatives<Lanes> W = derivatives(g);
+      EnergyDerivatives<Lanes> W;
+      set_derivatives(g, W);
       std::array<Lanes, 81> tangent;
       const int first = first_ + g * lane_count;
       if (!A) {
-        scatter_all(assemble_stress(kinematics_[g], used_, W), P, first, end_);
+        scatter(assemble_stress(kinematics_[g], used_, W), P, first, end_);
         continue;
       }
-      scatter_all(assemble_tangent(kinematics_[g], used_, W, tangent), P, first, end_);
-      scatter_all(tangent, A, first, end_);
+      scatter(assemble_tangent(kinematics_[g], used_, W, tangent), P, first, end_);
+      scatter(tangent, A, first, end_);
     }
   }
 
@@ -100,8 +93,7 @@ class Block {
       if (used_.has(Invariant(a))) v[a].copy_to(&points.excess[a][g * lane_count], std::experimental::element_aligned);
   }
 
-  EnergyDerivatives<Lanes> derivatives(int g) const {
-    EnergyDerivatives<Lanes> W;
+  void set_derivatives(int g, EnergyDerivatives<Lanes>& W) const {
     for (int a = 0; a < invariant_count; ++a) {
       if (!used_.has(Invariant(a))) continue;
       W.first[a] = load(W_.first[a], g);
@@ -110,7 +102,6 @@ class Block {
         if (used_.has(Invariant(b))) W.second[a][b] = load(W_.second[a][b], g);
     }
     if (W_.want_second && used_.has(Invariant::rate)) chain_rate(kinematics_[g], W);
-    return W;
   }
 
   int first_, end_;

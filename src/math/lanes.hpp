@@ -1,11 +1,14 @@
 /// Several points side by side in one vector register: the number type of kernels that run over points.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <experimental/simd>
 #include <limits>
+#include <utility>
 
 namespace titin {
 
@@ -19,6 +22,59 @@ Lanes gather(const Array* points, std::size_t c, int first, int n) {
     const int p = first + static_cast<int>(lane);
     return points[p < n ? p : n - 1][c];
   });
+}
+
+namespace detail {
+
+/// What Lanes are underneath: the standard's lanes cannot be exchanged, the compiler's can. At any address of numbers,
+/// because copies by memcpy are cut into halves that the next load has to wait for.
+using Register [[gnu::vector_size(sizeof(Lanes)), gnu::aligned(alignof(double)), gnu::may_alias]] = double;
+static_assert(sizeof(Register) == lane_count * sizeof(double));
+struct Square {
+  Register row[lane_count];
+};
+
+/// The 2 x 2 matrix of blocks of s lanes (a; b), transposed.
+template <int s, int... lane>
+[[gnu::always_inline]] inline void exchange(Register& a, Register& b, std::integer_sequence<int, lane...>) {
+  const Register low = __builtin_shufflevector(a, b, (lane & s ? lane_count + lane - s : lane)...);
+  b = __builtin_shufflevector(a, b, (lane & s ? lane_count + lane : lane + s)...);
+  a = low;
+}
+
+/// Row i becomes column i.
+template <int s = 1>
+[[gnu::always_inline]] inline void transpose(Square& x) {
+  if constexpr (s < lane_count) {
+#pragma GCC unroll 16
+    for (int i = 0; i < lane_count; ++i)
+      if (!(i & s)) exchange<s>(x.row[i], x.row[i + s], std::make_integer_sequence<int, lane_count>{});
+    transpose<2 * s>(x);
+  }
+}
+
+}  // namespace detail
+
+/// The other way round: components x of the points first, first+1, ... < n. A square of lanes at a time is turned in
+/// registers; number by number it takes as long as the tangent itself.
+template <std::size_t size>
+void scatter(const std::array<Lanes, size>& x, std::array<double, size>* points, int first, int n) {
+  const int count = std::min(lane_count, n - first);
+  constexpr std::size_t whole = size / lane_count * lane_count;
+  for (std::size_t c = 0; c < whole; c += lane_count) {
+    detail::Square square;
+#pragma GCC unroll 16
+    for (int i = 0; i < lane_count; ++i) square.row[i] = *reinterpret_cast<const detail::Register*>(&x[c + i]);
+    detail::transpose(square);
+#pragma GCC unroll 16
+    for (int p = 0; p < lane_count; ++p)
+      if (p < count) *reinterpret_cast<detail::Register*>(&points[first + p][c]) = square.row[p];
+  }
+  for (std::size_t c = whole; c < size; ++c) {
+    alignas(Lanes) double lanes[lane_count];
+    x[c].copy_to(lanes, std::experimental::vector_aligned);
+    for (int p = 0; p < count; ++p) points[first + p][c] = lanes[p];
+  }
 }
 
 /// x^(-1/3) for x > 0, NaN otherwise; vectorises, which std::cbrt does not.

@@ -30,5 +30,19 @@ TEST(Lanes, GatherFillsTheRestWithTheLastPoint) {
   for (int lane = 0; lane < lane_count; ++lane) EXPECT_EQ(x[lane], 12);
 }
 
+/// More components than lanes, and not a multiple of them; one point too few for the last lanes.
+TEST(Lanes, ScatterIsGatherTurnedRound) {
+  constexpr int size = 2 * lane_count + 1, n = 2 * lane_count - 1;
+  std::array<std::array<double, size>, n + 1> points{}, back{};
+  for (int p = 0; p < n; ++p)
+    for (int c = 0; c < size; ++c) points[p][c] = 100 * p + c + 1;
+  for (int first = 0; first < n; first += lane_count) {
+    std::array<Lanes, size> x;
+    for (int c = 0; c < size; ++c) x[c] = gather(points.data(), c, first, n);
+    scatter(x, back.data(), first, n);
+  }
+  EXPECT_EQ(points, back);  // the last one was not touched
+}
+
 }  // namespace
 }  // namespace titin
