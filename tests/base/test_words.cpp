@@ -17,6 +17,12 @@ TEST(Words, FindTheNearestWord) {
   EXPECT_EQ(nearest(std::string(100000, 'a'), known), "");
 }
 
+TEST(Words, AreCounted) {
+  EXPECT_EQ(count(1, "rank"), "1 rank");
+  EXPECT_EQ(count(0, "cell"), "0 cells");
+  EXPECT_EQ(count(3e9, "cell"), "3000000000 cells");
+}
+
 TEST(Words, ArePrintedSafely) {
   EXPECT_EQ(in_quotes("a\x1b[31mb\n"), "\"a?[31mb?\"");
   EXPECT_EQ(printable(std::string(61, 'x')), std::string(60, 'x') + "...");
