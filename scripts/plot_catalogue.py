@@ -1,7 +1,8 @@
 """Draws every law of the registry in one picture: stress against stretch from the point driver. Started by
 scripts/pictures.
 
-Parameters are the first published set of a law, else those of EXAMPLES, which are made up and said to be so.
+Parameters are the first published set of a law, else those of configs/point/examples.toml, which are made up
+and said to be so.
 """
 import argparse
 import csv
@@ -11,31 +12,14 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 import matplotlib.pyplot as plt
 import numpy as np
 from plot_style import COLOURS, FAINT, INK, STYLE, name_ends, prefixed
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-EXAMPLES = {
-    "arruda_boyce": 'mu = "10 kPa", locking_stretch = 1.8',
-    "cann": 'moduli_1 = "5, 2, 3, 1 kPa", exponents_1 = [1.5, 0.8], moduli_2 = "4, 1, 2, 0.5 kPa", exponents_2 = [2, 0.6]',
-    "cann_fibre": 'w1 = "3 kPa", w2 = "1 kPa", b = 2.5',
-    "compressible_neo_hookean": 'mu = "10 kPa", lambda = "40 kPa"',
-    "fung": 'c = "2 kPa", bff = 8, bss = 6, bnn = 3, bfs = 12, bsn = 3, bfn = 2',
-    "gent": 'mu = "10 kPa", limit = 2',
-    "goh": 'k1 = "2.4 kPa", k2 = 0.84, kappa = 0.1',
-    "hencky": 'mu = "10 kPa"',
-    "holmes_mow": 'mu = "0.2 MPa", lambda = "0.1 MPa", beta = 1.1',
-    "icnn": 'amplitude = "1, 0.7, 0.4 kPa", weight_1 = [0.9, 0.3, 9], weight_2 = [0.1, 0.25, 8], bias = [-0.4, 0.1, -1]',
-    "isotropic_family": 'mu = "10 kPa", a = -0.3',
-    "linear_fibre": 'stiffness = "200 kPa"',
-    "mooney_rivlin": 'c1 = "6 kPa", c2 = "2 kPa"',
-    "ogden": 'mu = "4, -1 kPa", alpha = [3, -3]',
-    "st_venant_kirchhoff": 'mu = "10 kPa", lambda = "40 kPa"',
-    "veronda_westmann": 'c1 = "2 kPa", c2 = 3',
-    "weiss_fibre": 'c3 = "0.57 MPa", c4 = 48, c5 = "467.1 MPa", lambda_straight = 1.062',
-}
+EXAMPLES = tomllib.loads((ROOT / "configs/point/examples.toml").read_text())["examples"]
 KINDS = ["matrix", "fibre", "active"]  # volumetric functions share one panel; fluids have no stretch
 COLUMNS = 5
 STEPS = 60
@@ -125,7 +109,7 @@ def draw_law(axes, point, law, colours):
     published = law["published"][0] if law["published"] else None
     parameters = published["parameters"] if published else EXAMPLES.get(law["name"])
     if not parameters:
-        sys.exit(f"plot: {law['name']} has no published parameters: add some to EXAMPLES in {pathlib.Path(__file__).name}")
+        sys.exit(f"plot: {law['name']} has no published parameters: add some to configs/point/examples.toml")
     curves = curves_of(point, law, parameters)
     low, high = common_range(curves)
     shown = {name: (x[(x >= low) & (x <= high)], y[(x >= low) & (x <= high)]) for name, (x, y) in curves.items()}
