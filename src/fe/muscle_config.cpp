@@ -18,7 +18,12 @@ void bind_formulation(Section s, MuscleConfig& c) {
          {.range = {.min = 1, .max = max_order},
           .doc = "k of Q_k displacement with P_(k-1) discontinuous pressure and dilatation"});
   s.read("quadrature", c.quadrature,
-         {.range = {.min = 0, .max = max_points}, .doc = "Gauss points per direction; 0 takes order + 1"});
+         {.range = {.min = 0, .max = max_points}, .doc = "Gauss points per direction; 0 takes order + 1, the least"});
+  if (c.quadrature > 0 && c.quadrature <= c.order)
+    s.error("quadrature",
+            fmt::format("{} a direction leave motions of order {} without force", count(c.quadrature, "Gauss point"),
+                        c.order),
+            fmt::format("take at least {}", c.order + 1));
   s.choose("fibre_rate", c.fibre_rate,
            {{"stretch_difference", FibreRate::stretch_difference}, {"velocity_gradient", FibreRate::velocity_gradient}},
            {.doc = "rate of the fibre's stretch in a step: from its two ends (symmetric tangent), or from the velocity "
