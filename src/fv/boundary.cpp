@@ -1,0 +1,278 @@
+#include "fv/boundary.hpp"
+
+#include <algorithm>
+
+namespace titin {
+namespace {
+
+/// What is left of a unit direction beside others: less is round-off, and the direction is given already.
+constexpr double independent = 1e-6;
+
+template <int D>
+std::array<Vector<D>, D> complement(const Directions<D>& given) {
+  std::array<Vector<D>, D> rest{};
+  if constexpr (D == 2) {
+    rest[0] = {-given.normal[0][1], given.normal[0][0]};
+  } else {
+    const Vector<3>& n = given.normal[0];
+    if (given.count == 2) {
+      rest[0] = cross(n, given.normal[1]);
+    } else {
+      const int smallest = static_cast<int>(
+          std::min_element(n.begin(), n.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+          n.begin());
+      Vector<3> axis{};
+      axis[smallest] = 1;
+      rest[0] = cross(n, axis);
+      const double size = norm(rest[0]);
+      for (double& component : rest[0]) component /= size;
+      rest[1] = cross(n, rest[0]);
+    }
+  }
+  return rest;
+}
+
+template <int D>
+Vector<D> solve_free(const Symmetric<D>& M, const Vector<D>& b) {
+  Symmetric<D> C;
+  const double determinant = cofactors<D>(M, C);
+  Vector<D> v = product<D>(C, b);
+  for (double& component : v) component /= determinant;
+  return v;
+}
+
+}  // namespace
+
+template <int D>
+void Directions<D>::add(const Vector<D>& n, double w, int owner) {
+  if (count == D) return;
+  Vector<D> rest = n;
+  for (int k = 0; k < count; ++k) {
+    const double along = dot(rest, normal[k]);
+    accumulate(rest, -along, normal[k]);
+    w -= along * velocity[k];
+  }
+  const double size = norm(rest);
+  if (size < independent) return;
+  for (double& component : rest) component /= size;
+  normal[count] = rest;
+  velocity[count] = w / size;
+  condition[count] = owner;
+  ++count;
+}
+
+template <int D>
+Vector<D> Directions<D>::solve(const Symmetric<D>& M, const Vector<D>& b) const {
+  if (count == 0) return solve_free<D>(M, b);
+  Vector<D> v{};
+  for (int k = 0; k < count; ++k) accumulate(v, velocity[k], normal[k]);
+  if (count == D) return v;
+  const auto T = complement(*this);
+  const Vector<D> rest = difference(b, product<D>(M, v));
+  const Vector<D> MT = product<D>(M, T[0]);
+  if (D - count == 1) {
+    accumulate(v, dot(T[0], rest) / dot(T[0], MT), T[0]);
+    return v;
+  }
+  const Vector<D> MU = product<D>(M, T[1]);
+  const double a = dot(T[0], MT), c = dot(T[0], MU), d = dot(T[1], MU), r = dot(T[0], rest), s = dot(T[1], rest);
+  const double determinant = a * d - c * c;
+  accumulate(v, (d * r - c * s) / determinant, T[0]);
+  accumulate(v, (a * s - c * r) / determinant, T[1]);
+  return v;
+}
+
+template <int D>
+Boundary<D>::Boundary(const SimplexMesh<D>& mesh, NodeExchange& exchange, std::vector<BoundaryCondition<D>> conditions)
+    : mesh_(mesh), exchange_(exchange), conditions_(std::move(conditions)), place_(mesh.nodes(), -1) {
+  take_faces();
+  take_rules();
+  load_.resize(rules_.size());
+}
+
+template <int D>
+int Boundary<D>::take_place(int node) {
+  if (place_[node] < 0) {
+    place_[node] = static_cast<int>(rules_.size());
+    rules_.emplace_back().node = node;
+  }
+  return place_[node];
+}
+
+template <int D>
+void Boundary<D>::take_faces() {
+  for (std::size_t f = 0; f < mesh_.boundary.size(); ++f) {
+    const auto& face = mesh_.boundary[f];
+    for (std::size_t c = 0; c < conditions_.size(); ++c) {
+      const auto& condition = conditions_[c];
+      const bool here = std::count(condition.attributes.begin(), condition.attributes.end(), face.attribute) > 0;
+      if (!here || !(condition.pressure || condition.traction_scale || condition.pressure_at)) continue;
+      faces_.push_back({static_cast<int>(f), static_cast<int>(c), area_vector<D>(mesh_.corners_of(face, mesh_.x)), {}});
+      for (int node : face.nodes) take_place(node);
+    }
+  }
+}
+
+/// A node obeys a condition when any rank has a face of it there: that rank tells the others. The normal is the mean of
+/// the boundary's faces at the node, of each attribute by itself.
+template <int D>
+void Boundary<D>::take_rules() {
+  for (std::size_t c = 0; c < conditions_.size(); ++c) {
+    const auto& condition = conditions_[c];
+    const bool moves = condition.velocity_at ||
+                       std::any_of(condition.velocity.begin(), condition.velocity.end(), [](auto* t) { return t; });
+    if (!condition.normal_velocity && !moves && !condition.has_obstacle) continue;
+    for (int attribute : condition.attributes) {
+      std::vector<std::array<double, D + 1>> area(mesh_.nodes());  // area vector, and how many faces
+      for (const auto& face : mesh_.boundary) {
+        if (face.attribute != attribute) continue;
+        const Vector<D> N = area_vector<D>(mesh_.corners_of(face, mesh_.x));
+        for (int node : face.nodes) {
+          for (int i = 0; i < D; ++i) area[node][i] += N[i];
+          area[node][D] += 1;
+        }
+      }
+      exchange_.sum(&area[0][0], D + 1);
+      for (int p = 0; p < mesh_.nodes(); ++p) {
+        if (area[p][D] == 0) continue;
+        NodeRules& rules = rules_[take_place(p)];
+        if (condition.normal_velocity) {
+          Vector<D> n;
+          std::copy_n(area[p].begin(), D, n.begin());
+          const double size = norm(n);
+          for (double& component : n) component /= size;
+          rules.walls.emplace_back(static_cast<int>(c), n);
+        }
+        if (moves) rules.moving.push_back(static_cast<int>(c));
+        if (condition.has_obstacle) rules.obstacles.push_back(static_cast<int>(c));
+      }
+    }
+  }
+}
+
+template <int D>
+Vector<D> Boundary<D>::face_force(const LoadedFace& loaded, double t, const std::vector<Vector<D>>& x) const {
+  const auto& condition = conditions_[loaded.condition];
+  Vector<D> force{};
+  if (condition.traction_scale)
+    accumulate(force, (*condition.traction_scale)(t)*norm(loaded.at_rest), condition.traction);
+  if (!condition.pressure && !condition.pressure_at) return force;
+  const auto corner = mesh_.corners_of(mesh_.boundary[loaded.face], x);
+  double pressure = condition.pressure ? (*condition.pressure)(t) : 0;
+  if (condition.pressure_at) {
+    Vector<D> centre{};
+    for (const auto& p : corner) accumulate(centre, 1.0 / D, p);
+    pressure += condition.pressure_at(centre, t);
+  }
+  accumulate(force, -pressure, area_vector<D>(corner));
+  return force;
+}
+
+template <int D>
+void Boundary<D>::prepare(double t, double dt, const std::vector<Vector<D>>& x) {
+  time_ = t;
+  dt_ = dt;
+  std::fill(load_.begin(), load_.end(), Vector<D>{});
+  for (LoadedFace& loaded : faces_) {
+    loaded.share = face_force(loaded, t, x);
+    for (double& component : loaded.share) component /= D;
+    for (int node : mesh_.boundary[loaded.face].nodes) accumulate(load_[place_[node]], 1, loaded.share);
+  }
+}
+
+template <int D>
+Directions<D> Boundary<D>::directions(const NodeRules& rules, const Vector<D>& x) const {
+  Directions<D> given;
+  for (const auto& [c, n] : rules.walls) given.add(n, (*conditions_[c].normal_velocity)(time_), c);
+  for (int c : rules.moving) {
+    const auto& condition = conditions_[c];
+    const Vector<D> at = condition.velocity_at ? condition.velocity_at(x, time_) : Vector<D>{};
+    for (int i = 0; i < D; ++i) {
+      if (!condition.velocity_at && !condition.velocity[i]) continue;
+      Vector<D> axis{};
+      axis[i] = 1;
+      given.add(axis, condition.velocity_at ? at[i] : (*condition.velocity[i])(time_), c);
+    }
+  }
+  return given;
+}
+
+template <int D>
+Vector<D> Boundary<D>::meet_obstacles(const NodeRules& rules, Directions<D>& given, const Symmetric<D>& M,
+                                      const Vector<D>& b, const Vector<D>& x) const {
+  Vector<D> v = given.solve(M, b);
+  for (int c : rules.obstacles) {
+    const auto& obstacle = conditions_[c].obstacle;
+    const double gap = dot(obstacle.normal, difference(x, obstacle.point));
+    if (dt_ == 0 || gap + dt_ * dot(obstacle.normal, v) >= 0) continue;
+    Directions<D> met = given;
+    met.add(obstacle.normal, -gap / dt_, c);
+    for (int i = 0; i < D && obstacle.contact == Contact::stick; ++i) {
+      Vector<D> axis{};
+      axis[i] = 1;
+      met.add(axis, -gap / dt_ * obstacle.normal[i], c);
+    }
+    const Vector<D> stopped = met.solve(M, b);
+    if (dot(obstacle.normal, difference(product<D>(M, stopped), b)) < 0) continue;  // it would be pulled
+    given = met;
+    v = stopped;
+  }
+  return v;
+}
+
+template <int D>
+Vector<D> Boundary<D>::velocity(int place, const Symmetric<D>& M, const Vector<D>& b, const Vector<D>& x) {
+  NodeRules& rules = rules_[place];
+  rules.share_count = 0;
+  rules.reaction = {};
+  if (!rules.constrained()) return solve_free<D>(M, b);
+  Directions<D> given = directions(rules, x);
+  const Vector<D> v = meet_obstacles(rules, given, M, b, x);
+  if (!exchange_.owns(rules.node)) return v;
+  const Vector<D> R = difference(product<D>(M, v), b);
+  for (int k = 0; k < given.count; ++k) {
+    Vector<D> share{};
+    accumulate(share, dot(R, given.normal[k]), given.normal[k]);
+    accumulate(rules.reaction, 1, share);
+    rules.shares[rules.share_count++] = {given.condition[k], share};
+  }
+  return v;
+}
+
+template <int D>
+void Boundary<D>::add_forces(const std::vector<Vector<D>>& v, std::vector<Force>& of_condition) const {
+  for (const LoadedFace& loaded : faces_)
+    for (int node : mesh_.boundary[loaded.face].nodes) {
+      accumulate(of_condition[loaded.condition].force, 1, loaded.share);
+      of_condition[loaded.condition].power += dot(loaded.share, v[node]);
+    }
+  for (const NodeRules& rules : rules_)
+    for (int k = 0; k < rules.share_count; ++k) {
+      const auto& [condition, share] = rules.shares[k];
+      accumulate(of_condition[condition].force, 1, share);
+      of_condition[condition].power += dot(share, v[rules.node]);
+    }
+}
+
+template <int D>
+Vector<3> Boundary<D>::moment(const std::vector<Vector<D>>& x) const {
+  Vector<3> sum{};
+  const auto spatial = [](const Vector<D>& a) {
+    Vector<3> b{};
+    std::copy(a.begin(), a.end(), b.begin());
+    return b;
+  };
+  for (std::size_t k = 0; k < rules_.size(); ++k) {
+    Vector<D> force = load_[k];
+    accumulate(force, 1, rules_[k].reaction);
+    accumulate(sum, 1, cross(spatial(x[rules_[k].node]), spatial(force)));
+  }
+  return sum;
+}
+
+template struct Directions<2>;
+template struct Directions<3>;
+template class Boundary<2>;
+template class Boundary<3>;
+
+}  // namespace titin

@@ -1,0 +1,125 @@
+#include "fv/closure.hpp"
+
+#include <array>
+
+#include "materials/compressible.hpp"
+#include "materials/ellipticity.hpp"
+
+namespace titin {
+namespace {
+
+/// A speed is sought anew when C has changed by this part of itself: the speed, and with it the impedance, is then off
+/// by no more than about as much, which changes dissipation of the scheme, not its order.
+constexpr double same_deformation = 0.01;
+constexpr int batch = 64;  // points of stress held at a time
+
+class FluidClosure final : public Closure {
+ public:
+  explicit FluidClosure(std::shared_ptr<const Fluid> fluid) : fluid_(std::move(fluid)) {}
+  bool is_solid() const override { return false; }
+  void stress(const CellBatch& in, Sym3* T) const override {
+    for (int i = 0; i < in.n; ++i) T[i] = pressing(fluid_->state(in.density[i], in.energy[i]).pressure);
+  }
+  void stress_and_speed(const CellBatch& in, WaveMemory*, Sym3* T, double* speed) const override {
+    for (int i = 0; i < in.n; ++i) {
+      const Fluid::State s = fluid_->state(in.density[i], in.energy[i]);
+      T[i] = pressing(s.pressure);
+      speed[i] = s.sound_speed;
+    }
+  }
+  bool admissible(double density, double energy) const override { return fluid_->admissible(density, energy); }
+  void stored(const CellBatch& in, double* psi) const override { std::fill_n(psi, in.n, 0.0); }
+  double energy_at(double density, double pressure) const override { return fluid_->energy(density, pressure); }
+
+ private:
+  static Sym3 pressing(double p) { return {-p, -p, -p, 0, 0, 0}; }
+  std::shared_ptr<const Fluid> fluid_;
+};
+
+class SolidClosure final : public Closure {
+ public:
+  explicit SolidClosure(std::shared_ptr<const Material> material) : material_(std::move(material)) {}
+  bool is_solid() const override { return true; }
+
+  void stress(const CellBatch& in, Sym3* T) const override {
+    std::array<Mat3, batch> P;
+    for (int first = 0; first < in.n; first += batch) {
+      const PointInput points = points_of(in, first);
+      whole_stress(*material_, points, P.data(), nullptr);
+      for (int i = 0; i < points.n; ++i) {
+        const Mat3& F = points.F[i];
+        T[first + i] = symmetric_part(multiply(P[i], transpose(F)));
+        const double over_J = 1 / determinant(F);
+        for (double& component : T[first + i]) component *= over_J;
+      }
+    }
+  }
+
+  void stress_and_speed(const CellBatch& in, WaveMemory* memory, Sym3* T, double* speed) const override {
+    stress(in, T);
+    for (int i = 0; i < in.n; ++i) {
+      const Sym3 C = right_cauchy_green(in.F[i]);
+      WaveMemory& known = memory[in.cell[i]];
+      if (!near(C, known)) {
+        PointInput point = points_of(in, i);
+        point.n = 1;
+        known.C = C;
+        wave_speed(*material_, point, &known.speed);
+      }
+      speed[i] = known.speed;
+    }
+  }
+
+  bool admissible(double density, double) const override { return density > 0; }
+
+  void stored(const CellBatch& in, double* psi) const override {
+    for (int first = 0; first < in.n; first += batch) {
+      const PointInput points = points_of(in, first);
+      whole_energy(*material_, points, psi + first);
+      for (int i = 0; i < points.n; ++i) psi[first + i] /= material_->density();
+    }
+  }
+
+  double energy_at(double, double) const override {
+    double psi = 0;
+    CellBatch rest;
+    rest.n = 1;
+    rest.F = &identity;
+    stored(rest, &psi);
+    return psi;
+  }
+
+ private:
+  static PointInput points_of(const CellBatch& in, int first) {
+    PointInput points;
+    points.n = std::min(batch, in.n - first);
+    points.F = in.F + first;
+    points.time = in.time;
+    return points;
+  }
+  static Sym3 right_cauchy_green(const Mat3& F) {
+    Sym3 C;
+    const int row[] = {0, 1, 2, 0, 1, 0}, column[] = {0, 1, 2, 1, 2, 2};
+    for (int k = 0; k < 6; ++k)
+      C[k] = F[row[k]] * F[column[k]] + F[3 + row[k]] * F[3 + column[k]] + F[6 + row[k]] * F[6 + column[k]];
+    return C;
+  }
+  static bool near(const Sym3& C, const WaveMemory& memory) {
+    Sym3 change;
+    for (int k = 0; k < 6; ++k) change[k] = C[k] - memory.C[k];
+    return memory.speed > 0 && contract(change, change) <= same_deformation * same_deformation * contract(C, C);
+  }
+
+  std::shared_ptr<const Material> material_;
+};
+
+}  // namespace
+
+std::unique_ptr<Closure> make_closure(std::shared_ptr<const Fluid> fluid) {
+  return std::make_unique<FluidClosure>(std::move(fluid));
+}
+std::unique_ptr<Closure> make_closure(std::shared_ptr<const Material> solid) {
+  return std::make_unique<SolidClosure>(std::move(solid));
+}
+
+}  // namespace titin

@@ -1,0 +1,54 @@
+/// What a cell is made of: Cauchy stress and wave speed from its deformation, density and internal energy.
+///
+/// Fluids take p(rho, e) of materials/fluid.hpp, T = -p I. Solids take any elastic material: T = P F^T / J with P of
+/// all terms and of the volumetric law at J = det F; their internal energy does not change the stress, and its excess
+/// over the stored energy is heat. Plane strain in two dimensions: F_33 = 1.
+#pragma once
+
+#include <memory>
+
+#include "materials/fluid.hpp"
+#include "materials/material.hpp"
+#include "math/symmetric.hpp"
+
+namespace titin {
+
+/// The deformation at which a cell's wave speed was last sought: the search costs far more than a stress, and the speed
+/// depends on F only through C = F^T F.
+struct WaveMemory {
+  Sym3 C{};
+  double speed = 0;  // [m/s]; 0: none yet
+};
+
+/// n cells of one material.
+struct CellBatch {
+  int n = 0;
+  const Mat3* F = nullptr;          ///< [n]; solids alone read it
+  const double* density = nullptr;  ///< [n] current [kg/m^3]
+  const double* energy = nullptr;   ///< [n] specific internal [J/kg]
+  const int* cell = nullptr;        ///< [n] places in the memory of waves
+  double time = 0;                  ///< [s] for active materials
+};
+
+class Closure {
+ public:
+  virtual ~Closure() = default;
+  virtual bool is_solid() const = 0;
+  /// Cauchy stress [Pa] of n cells; not a number where there is none.
+  virtual void stress(const CellBatch& in, Sym3* T) const = 0;
+  /// The same, and the speed of the fastest wave [m/s]. `memory` [cell] is the caller's, kept from step to
+  /// step.
+  virtual void stress_and_speed(const CellBatch& in, WaveMemory* memory, Sym3* T, double* speed) const = 0;
+  /// Is this a state the material is good for?
+  virtual bool admissible(double density, double energy) const = 0;
+  /// Energy stored without heat [J/kg]: what a solid gives back. Fluids store none.
+  virtual void stored(const CellBatch& in, double* psi) const = 0;
+  /// Specific internal energy [J/kg] of an undeformed solid, or of a fluid at this pressure.
+  virtual double energy_at(double density, double pressure) const = 0;
+};
+
+/// Shared laws stay as they are; a closure holds no state of cells.
+std::unique_ptr<Closure> make_closure(std::shared_ptr<const Fluid> fluid);
+std::unique_ptr<Closure> make_closure(std::shared_ptr<const Material> solid);
+
+}  // namespace titin

@@ -1,0 +1,33 @@
+#include "fv/fv_config.hpp"
+
+namespace titin {
+
+void FvConfig::bind(Section& s) {
+  s.read("order", order, {.range = {.min = 1, .max = 2}, .doc = "of the scheme in space and time"});
+  s.choose("predictor", predictor,
+           {{"hancock", Predictor::hancock}, {"ader", Predictor::ader}, {"rk2", Predictor::rk2}},
+           {.doc = "how cells get to the middle of a step: one Taylor step, the local space-time solution, or a half "
+                   "step of the whole scheme"});
+  s.choose("limiter", limiter,
+           {{"mood", Limiter::mood}, {"barth_jespersen", Limiter::barth_jespersen}, {"none", Limiter::none}},
+           {.doc = "mood: where a step has failed, again with limited slopes, then without; barth_jespersen: limited "
+                   "slopes everywhere; none: slopes as they are"});
+  s.read("cfl", cfl,
+         {.range = {.min = 0, .max = 1, .open_min = true},
+          .doc = "part of the time that the fastest wave takes through a cell's inner ball"});
+  s.read(
+      "volume_change", volume_change,
+      {.range = {.min = 0, .max = 0.5, .open_min = true}, .doc = "part of a cell's volume that one step may change"});
+  s.read("growth", growth, {.range = positive, .doc = "how much longer than the last a step may be"});
+  s.read(
+      "first_step", first_step,
+      {.range = {.min = 0, .max = 1, .open_min = true}, .doc = "part of the acoustic step that the first one takes"});
+  s.read("impedance", impedance,
+         {.range = {.min = 0.5, .max = 4}, .doc = "factor of density times wave speed in the nodal solver"});
+  s.read("density_tolerance", density_tolerance,
+         {.range = non_negative, .doc = "how far a density may leave the range of its neighbours, relative to itself"});
+  s.read("range_tolerance", range_tolerance,
+         {.range = non_negative, .doc = "the same, relative to that range; the larger of both holds"});
+}
+
+}  // namespace titin

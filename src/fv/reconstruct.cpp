@@ -1,0 +1,133 @@
+#include "fv/reconstruct.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace titin {
+namespace {
+
+/// Below this part of its size cubed (squared in the plane) a matrix of moments has no inverse: too few neighbours.
+constexpr double singular = 1e-10;
+constexpr double nothing = -std::numeric_limits<double>::infinity();
+/// A change below this part of the largest range among the components is round-off, and limits nothing.
+constexpr double round_off = 1e-8;
+
+/// How much of a change from the cell's value stays inside [down, up] (differences from it).
+double kept(double change, double up, double down, double negligible) {
+  if (std::abs(change) <= negligible) return 1;
+  return std::min(1.0, (change > 0 ? up : down) / change);
+}
+
+}  // namespace
+
+template <int D>
+Reconstruction<D>::Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exchange)
+    : mesh_(mesh), exchange_(exchange), moments_(mesh.nodes()), extremes_(mesh.nodes()), density_(mesh.nodes()) {}
+
+template <int D>
+void Reconstruction<D>::gather(const FlowState<D>& state) {
+  for (int p = 0; p < mesh_.nodes(); ++p) {
+    Moments m;
+    DensityExtremes range{nothing, nothing};
+    for (int k = mesh_.first_corner[p]; k < mesh_.first_corner[p + 1]; ++k) {
+      const CellRecord<D>& c = state.cell[mesh_.corners[k] / (D + 1)];
+      const Vector<D> r = difference(c.centre, state.x[p]);
+      const double w = 1 / dot(r, r);
+      m.w += w;
+      accumulate(m.wr, w, r);
+      add_square<D>(m.wrr, w, r);
+      accumulate(m.wq, w, c.q);
+      for (int i = 0; i < D; ++i) accumulate(m.wrq[i], w * r[i], c.q);
+      range.high = std::max(range.high, c.density);
+      range.minus_low = std::max(range.minus_low, -c.density);
+    }
+    moments_[p] = m;
+    density_[p] = range;
+  }
+  exchange_.sum(&moments_[0].w, sizeof(Moments) / sizeof(double));
+  exchange_.max(&density_[0].high, 2);
+}
+
+template <int D>
+void Reconstruction<D>::gather_ranges(const FlowState<D>& state) {
+  for (int p = 0; p < mesh_.nodes(); ++p) {
+    Extremes e;
+    e.high.fill(nothing);
+    e.minus_low.fill(nothing);
+    for (int k = mesh_.first_corner[p]; k < mesh_.first_corner[p + 1]; ++k) {
+      const CellFields<D>& q = state.cell[mesh_.corners[k] / (D + 1)].q;
+      for (int f = 0; f < fields; ++f) {
+        e.high[f] = std::max(e.high[f], q[f]);
+        e.minus_low[f] = std::max(e.minus_low[f], -q[f]);
+      }
+    }
+    extremes_[p] = e;
+  }
+  exchange_.max(&extremes_[0].high[0], sizeof(Extremes) / sizeof(double));
+}
+
+template <int D>
+Slopes<D> Reconstruction<D>::slopes(int cell, const FlowState<D>& state) const {
+  const CellRecord<D>& c = state.cell[cell];
+  Symmetric<D> S{};
+  std::array<CellFields<D>, D> r{};
+  for (int p : mesh_.nodes_of[cell]) {
+    const Moments& m = moments_[p];
+    const Vector<D> s = difference(state.x[p], c.centre);
+    for (int i = 0; i < D; ++i) {
+      const double first = m.wr[i] + s[i] * m.w;
+      for (int j = i; j < D; ++j)
+        S[symmetric_index<D>(i, j)] += m.wrr[symmetric_index<D>(i, j)] + m.wr[i] * s[j] + s[i] * (m.wr[j] + s[j] * m.w);
+      for (int f = 0; f < fields; ++f) r[i][f] += m.wrq[i][f] + s[i] * m.wq[f] - c.q[f] * first;
+    }
+  }
+  Slopes<D> g{};
+  Symmetric<D> inverse;
+  const double determinant = cofactors<D>(S, inverse);
+  double trace = 0;
+  for (int i = 0; i < D; ++i) trace += S[i];
+  if (!(determinant > singular * trace * trace * (D == 3 ? trace : 1))) return g;
+  for (double& entry : inverse) entry /= determinant;
+  for (int f = 0; f < fields; ++f)
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) g[f][i] += inverse[symmetric_index<D>(i, j)] * r[j][f];
+  return g;
+}
+
+template <int D>
+void Reconstruction<D>::limit(int cell, const FlowState<D>& state, Slopes<D>& g) const {
+  const CellRecord<D>& c = state.cell[cell];
+  CellFields<D> up, down;
+  for (int f = 0; f < fields; ++f) up[f] = down[f] = c.q[f];
+  for (int p : mesh_.nodes_of[cell])
+    for (int f = 0; f < fields; ++f) {
+      up[f] = std::max(up[f], extremes_[p].high[f]);
+      down[f] = std::min(down[f], -extremes_[p].minus_low[f]);
+    }
+  double factor[] = {1, 1}, range[] = {0, 0};  // of velocity, of stress
+  for (int f = 0; f < fields; ++f) range[f >= D] = std::max(range[f >= D], up[f] - down[f]);
+  for (int p : mesh_.nodes_of[cell]) {
+    const Vector<D> s = difference(state.x[p], c.centre);
+    for (int f = 0; f < fields; ++f)
+      factor[f >= D] =
+          std::min(factor[f >= D], kept(dot(g[f], s), up[f] - c.q[f], down[f] - c.q[f], round_off * range[f >= D]));
+  }
+  for (int f = 0; f < fields; ++f)
+    for (double& component : g[f]) component *= factor[f >= D];
+}
+
+template <int D>
+typename Reconstruction<D>::Range Reconstruction<D>::densities(int cell) const {
+  Range range{std::numeric_limits<double>::infinity(), nothing};
+  for (int p : mesh_.nodes_of[cell]) {
+    range.high = std::max(range.high, density_[p].high);
+    range.low = std::min(range.low, -density_[p].minus_low);
+  }
+  return range;
+}
+
+template class Reconstruction<2>;
+template class Reconstruction<3>;
+
+}  // namespace titin

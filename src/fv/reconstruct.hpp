@@ -1,0 +1,72 @@
+/// Linear fields in cells by least squares over all cells that share a node, without any cell of another rank.
+///
+/// q(x) = Q_c + g . (x - x_c) minimises sum_j w_j (Q_c + g . (x_j - x_c) - Q_j)^2, where a cell j counts once for every
+/// node p that it shares, with w = 1 / |x_j - x_p|^2 (equal weights are weakly anti-dissipative). Sums over the
+/// neighbours split into moments about nodes, which are summed over ranks:
+///
+///   with r = x_j - x_p, s = x_p - x_c:   S_c = sum_p [sum w r r + s (sum w r) + (sum w r) s + s s sum w]
+///                                        r_c = sum_p [sum w r Q + s sum w Q - Q_c (sum w r + s sum w)],  g = S^-1 r.
+///
+/// Linear fields are exact. The limiter is that of Barth & Jespersen (1989, AIAA 89-0366): no value at a corner leaves
+/// the range of the neighbours; one factor for all components of the velocity and one for those of the stress, so that
+/// it does not depend on the axes.
+#pragma once
+
+#include <vector>
+
+#include "fv/node_exchange.hpp"
+#include "fv/state.hpp"
+
+namespace titin {
+
+/// g[k][i] = d q_k / d x_i.
+template <int D>
+using Slopes = std::array<Vector<D>, field_count<D>>;
+
+template <int D>
+class Reconstruction {
+ public:
+  Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exchange);
+
+  /// Takes in a state: moments and the range of the density about every node. Collective.
+  void gather(const FlowState<D>& state);
+  /// The range of all fields about every node, for the limiter. Collective.
+  void gather_ranges(const FlowState<D>& state);
+
+  Slopes<D> slopes(int cell, const FlowState<D>& state) const;
+  /// Scales slopes; needs gather_ranges of the same state.
+  void limit(int cell, const FlowState<D>& state, Slopes<D>& g) const;
+
+  struct Range {
+    double low, high;
+  };
+  /// Of the density over the cells that share a node with this one, itself included.
+  Range densities(int cell) const;
+
+ private:
+  static constexpr int fields = field_count<D>;
+  struct Moments {
+    double w = 0;
+    Vector<D> wr{};
+    Symmetric<D> wrr{};
+    CellFields<D> wq{};
+    std::array<CellFields<D>, D> wrq{};
+  };
+  struct Extremes {  // of all fields; as maxima, so that one exchange does for both
+    CellFields<D> high, minus_low;
+  };
+  struct DensityExtremes {
+    double high, minus_low;
+  };
+
+  const SimplexMesh<D>& mesh_;
+  NodeExchange& exchange_;
+  std::vector<Moments> moments_;          // [node]
+  std::vector<Extremes> extremes_;        // [node]
+  std::vector<DensityExtremes> density_;  // [node]
+};
+
+extern template class Reconstruction<2>;
+extern template class Reconstruction<3>;
+
+}  // namespace titin

@@ -1,0 +1,311 @@
+#include "fv/scheme.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/parallel.hpp"
+
+namespace titin {
+namespace {
+
+/// A step whose cells change their volumes by more than this many times the bound it was chosen for is taken again.
+constexpr double volume_margin = 2;
+
+std::vector<int> numbers(int n) {
+  std::vector<int> list(n);
+  std::iota(list.begin(), list.end(), 0);
+  return list;
+}
+
+template <int D>
+void set_stress(const Sym3& T, CellFields<D>& q) {
+  if constexpr (D == 2)
+    q[2] = T[0], q[3] = T[1], q[4] = T[3];
+  else
+    std::copy(T.begin(), T.end(), q.begin() + 3);
+}
+
+}  // namespace
+
+template <int D>
+Scheme<D>::Scheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, const FvConfig& config,
+                  std::vector<BoundaryCondition<D>> conditions, const std::vector<CellStart>& start)
+    : mesh_(mesh),
+      exchange_(exchange),
+      config_(config),
+      closure_(mesh.cells()),
+      mass_(mesh.cells()),
+      inverse_edges_(mesh.cells()),
+      all_(numbers(mesh.cells())),
+      all_nodes_(numbers(mesh.nodes())),
+      waves_(mesh.cells()),
+      boundary_(mesh, exchange, std::move(conditions)),
+      reconstruction_(mesh, exchange),
+      nodes_(mesh, exchange, boundary_),
+      mood_(mesh, exchange),
+      now_(mesh.cells(), mesh.nodes()),
+      next_(mesh.cells(), mesh.nodes()),
+      half_x_(mesh.x) {
+  troubled_.reserve(mesh.cells());
+  now_.x = next_.x = mesh.x;
+  for (int c = 0; c < mesh.cells(); ++c) {
+    closure_[c] = start[c].closure;
+    const Corners<D> x = mesh.corners_of(c, mesh.x);
+    mass_[c] = start[c].density * simplex_volume<D>(x);
+    inverse_edges_[c] = inverse_of<D>(edges<D>(x));
+    for (int i = 0; i < D; ++i) now_.cell[c].q[i] = start[c].velocity[i];
+    const Vector<D> v = velocity_of<D>(now_.cell[c].q);
+    now_.energy[c] = start[c].energy + 0.5 * dot(v, v);
+  }
+  update(all_, 0, 0);  // without forces: completes the state
+  std::swap(now_, next_);
+  source_ = {&now_, &now_.x, 0};
+  boundary_.prepare(0, 0, now_.x);
+  solve_all(0, CellOrder::constant);
+  now_.v = next_.v;
+  largest_dt_ = config_.first_step * min(acoustic_dt());
+}
+
+template <int D>
+Mat3 Scheme<D>::deformation(int cell, const FlowState<D>& state) const {
+  const Matrix<D> F = matrix_product<D>(edges<D>(mesh_.corners_of(cell, state.x)), inverse_edges_[cell]);
+  Mat3 full = identity;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) full[3 * i + j] = F[D * i + j];
+  return full;
+}
+
+template <int D>
+double Scheme<D>::internal_energy(int cell, const FlowState<D>& state) const {
+  const Vector<D> v = velocity_of<D>(state.cell[cell].q);
+  return state.energy[cell] - 0.5 * dot(v, v);
+}
+
+template <int D>
+CellOrder Scheme<D>::first_order() const {
+  if (config_.order == 1) return CellOrder::constant;
+  return config_.limiter == Limiter::barth_jespersen ? CellOrder::limited : CellOrder::linear;
+}
+
+template <int D>
+std::string Scheme<D>::advance(double t, double dt) {
+  if (config_.predictor == Predictor::rk2 && config_.order == 2) {
+    half_step(t, dt);
+  } else {
+    for (int p = 0; p < mesh_.nodes(); ++p) half_x_[p] = moved(now_.x[p], dt / 2, now_.v[p]);
+    source_ = {&now_, &half_x_, dt};
+  }
+  boundary_.prepare(t + dt / 2, dt, half_x_);
+  solve_all(dt, first_order());
+  move(all_nodes_, dt);
+  update(all_, t, dt);
+  return judge(t, dt);
+}
+
+/// Euler's half step of the whole scheme: where the second half takes its fields and geometry from.
+template <int D>
+void Scheme<D>::half_step(double t, double dt) {
+  if (!half_) half_ = std::make_unique<FlowState<D>>(mesh_.cells(), mesh_.nodes());
+  source_ = {&now_, &now_.x, 0};
+  boundary_.prepare(t, dt / 2, now_.x);
+  solve_all(dt / 2, first_order());
+  move(all_nodes_, dt / 2);
+  update(all_, t, dt / 2);
+  std::swap(*half_, next_);
+  half_x_ = half_->x;
+  source_ = {half_.get(), &half_x_, 0};
+}
+
+template <int D>
+void Scheme<D>::solve_all(double dt, CellOrder order) {
+  mood_.start(order);
+  if (order != CellOrder::constant) reconstruction_.gather(*source_.state);
+  if (order == CellOrder::limited) reconstruction_.gather_ranges(*source_.state);
+  find_corners(all_, dt);
+  nodes_.solve(now_.x, next_.v);
+}
+
+template <int D>
+void Scheme<D>::load(int b, int cell, PredictedBlock<D>& block) const {
+  const FlowState<D>& state = *source_.state;
+  block.g[b] = {};
+  if (mood_.order(cell) != CellOrder::constant) block.g[b] = reconstruction_.slopes(cell, state);
+  if (mood_.order(cell) == CellOrder::limited) reconstruction_.limit(cell, state, block.g[b]);
+  block.q[b] = state.cell[cell].q;
+  block.density[b] = state.cell[cell].density;
+  block.energy[b] = internal_energy(cell, state);
+  block.F[b] = closure_[cell]->is_solid() ? deformation(cell, state) : identity;
+}
+
+template <int D>
+void Scheme<D>::find_corners(std::span<const int> cells, double t) {
+  for_blocks(cells, [&](std::span<const int> run, const Closure& closure) {
+    PredictedBlock<D> block;
+    block.n = static_cast<int>(run.size());
+    bool flat = true;
+    for (int b = 0; b < block.n; ++b) {
+      load(b, run[b], block);
+      flat = flat && mood_.order(run[b]) == CellOrder::constant;
+    }
+    if (source_.predicted > 0 && !flat) predict<D>(config_.predictor, closure, t, source_.predicted, block);
+    for (int b = 0; b < block.n; ++b) {
+      const bool constant = mood_.order(run[b]) == CellOrder::constant;  // keeps the bits of the first-order scheme
+      write_corners(run[b], block.g[b], constant ? source_.state->cell[run[b]].q : block.q[b]);
+    }
+  });
+}
+
+template <int D>
+void Scheme<D>::write_corners(int cell, const Slopes<D>& g, const CellFields<D>& q) {
+  const FlowState<D>& state = *source_.state;
+  const CellRecord<D>& record = state.cell[cell];
+  const Corners<D> normals = corner_normals<D>(mesh_.corners_of(cell, *source_.x));
+  const auto M = corner_impedances<D>(normals, config_.impedance * record.density * state.speed[cell]);
+  CornerForce<D>* corner = nodes_.corners(cell);
+  for (int p = 0; p <= D; ++p) {
+    const Vector<D> s = difference(state.x[mesh_.nodes_of[cell][p]], record.centre);
+    CellFields<D> at = q;
+    for (int f = 0; f < field_count<D>; ++f) at[f] += dot(g[f], s);
+    corner[p].M = M[p];
+    corner[p].b = difference(product<D>(M[p], velocity_of<D>(at)), product<D>(stress_of<D>(at), normals[p]));
+  }
+}
+
+template <int D>
+void Scheme<D>::move(std::span<const int> nodes, double dt) {
+  for (int p : nodes) next_.x[p] = moved(now_.x[p], dt, next_.v[p]);
+}
+
+/// Forces and power of the corners into velocity and total energy of the next state.
+template <int D>
+void Scheme<D>::take_forces(int cell, double dt) {
+  const double per_mass = dt / mass_[cell];
+  CellRecord<D>& record = next_.cell[cell];
+  record.q = now_.cell[cell].q;
+  double power = 0;
+  const CornerForce<D>* corner = nodes_.corners(cell);
+  for (int p = 0; p <= D && dt > 0; ++p) {
+    const Vector<D>& v = next_.v[mesh_.nodes_of[cell][p]];
+    const Vector<D> f = corner[p].force(v);
+    for (int i = 0; i < D; ++i) record.q[i] += per_mass * f[i];
+    power += dot(f, v);
+  }
+  next_.energy[cell] = now_.energy[cell] + per_mass * power;
+}
+
+template <int D>
+void Scheme<D>::update(std::span<const int> cells, double t, double dt) {
+  for_blocks(cells, [&](std::span<const int> run, const Closure& closure) {
+    const int n = static_cast<int>(run.size());
+    std::array<Mat3, cells_per_block> F;
+    std::array<double, cells_per_block> density, energy, speed, diameter;
+    std::array<Sym3, cells_per_block> T;
+    for (int b = 0; b < n; ++b) {
+      const int c = run[b];
+      const Corners<D> x = mesh_.corners_of(c, next_.x);
+      take_forces(c, dt);
+      next_.volume[c] = simplex_volume<D>(x);
+      diameter[b] = inner_diameter<D>(next_.volume[c], corner_normals<D>(x));
+      density[b] = next_.cell[c].density = mass_[c] / next_.volume[c];
+      next_.cell[c].centre = centroid<D>(x);
+      energy[b] = internal_energy(c, next_);
+      F[b] = closure.is_solid() ? deformation(c, next_) : identity;
+    }
+    closure.stress_and_speed({n, F.data(), density.data(), energy.data(), run.data(), t + dt}, waves_.data(), T.data(),
+                             speed.data());
+    for (int b = 0; b < n; ++b) {
+      set_stress<D>(T[b], next_.cell[run[b]].q);
+      next_.speed[run[b]] = speed[b];
+      next_.crossing[run[b]] = diameter[b] / speed[b];
+    }
+  });
+}
+
+/// Computer and physics: numbers, a volume, a state that the material knows.
+template <int D>
+bool Scheme<D>::has_meaning(int cell) const {
+  const CellRecord<D>& c = next_.cell[cell];
+  const double sum = std::accumulate(c.q.begin(), c.q.end(), next_.energy[cell] + next_.speed[cell]);
+  const double change = std::abs(next_.volume[cell] - now_.volume[cell]);
+  return std::isfinite(sum) && next_.volume[cell] > 0 &&
+         change <= volume_margin * config_.volume_change * now_.volume[cell] &&
+         closure_[cell]->admissible(c.density, internal_energy(cell, next_));
+}
+
+template <int D>
+bool Scheme<D>::in_trouble(int cell) const {
+  if (!has_meaning(cell)) return true;
+  const auto range = reconstruction_.densities(cell);
+  const double allowed =
+      std::max(config_.density_tolerance * now_.cell[cell].density, config_.range_tolerance * (range.high - range.low));
+  const double density = next_.cell[cell].density;
+  return density < range.low - allowed || density > range.high + allowed;
+}
+
+template <int D>
+std::string Scheme<D>::judge(double t, double dt) {
+  const bool cascade = config_.order == 2 && config_.limiter == Limiter::mood;
+  bool ranges = false;
+  std::span<const int> cells = all_;
+  while (cascade) {
+    troubled_.clear();
+    for (int c : cells)
+      if (mood_.order(c) != CellOrder::constant && in_trouble(c)) troubled_.push_back(c);
+    if (!mood_.lower(troubled_)) break;
+    if (!ranges) reconstruction_.gather_ranges(*source_.state);
+    ranges = true;
+    find_corners(mood_.lowered(), t);
+    nodes_.solve(mood_.nodes(), now_.x, next_.v);
+    move(mood_.nodes(), dt);
+    update(mood_.touched(), t, dt);
+    cells = mood_.touched();
+  }
+  return failure();
+}
+
+/// The first cell of the lowest rank that has no meaning, in words that all ranks share; "" when all have.
+template <int D>
+std::string Scheme<D>::failure() const {
+  const auto wrong = std::find_if(all_.begin(), all_.end(), [&](int c) { return !has_meaning(c); });
+  const bool failed = wrong != all_.end();
+  const double first = min(failed ? static_cast<double>(rank()) : std::numeric_limits<double>::infinity());
+  if (!std::isfinite(first)) return "";
+  std::vector<double> facts(6);
+  if (failed && first == rank()) {
+    std::copy(now_.cell[*wrong].centre.begin(), now_.cell[*wrong].centre.end(), facts.begin());
+    facts[3] = next_.volume[*wrong] / now_.volume[*wrong];
+    facts[4] = next_.cell[*wrong].density;
+    facts[5] = internal_energy(*wrong, next_);
+    for (double& fact : facts)
+      if (!std::isfinite(fact)) fact = std::numeric_limits<double>::max();  // sums of others stay numbers
+  }
+  sum(facts);
+  return fmt::format(
+      "the cell around ({:.4g}, {:.4g}, {:.4g}) m has no state with a meaning even at first order: "
+      "{:.3g} of its volume before, density {:.4g} kg/m^3, internal energy {:.4g} J/kg",
+      facts[0], facts[1], facts[2], facts[3], facts[4], facts[5]);
+}
+
+template <int D>
+void Scheme<D>::accept(double dt) {
+  std::swap(now_, next_);
+  double filling = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < mesh_.cells(); ++c)
+    filling = std::min(filling, dt * now_.volume[c] / std::abs(now_.volume[c] - next_.volume[c]));
+  largest_dt_ = std::min((1 + config_.growth) * dt, min(std::min(acoustic_dt(), config_.volume_change * filling)));
+}
+
+/// Of this rank.
+template <int D>
+double Scheme<D>::acoustic_dt() const {
+  return config_.cfl * *std::min_element(now_.crossing.begin(), now_.crossing.end());
+}
+
+template class Scheme<2>;
+template class Scheme<3>;
+
+}  // namespace titin

@@ -1,0 +1,52 @@
+/// The state of all cells and nodes of a rank, laid out for gathers: what a neighbour reads of a cell is one record.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "math/vector.hpp"
+
+namespace titin {
+
+/// Fields that are reconstructed: velocity [m/s], then the Cauchy stress [Pa] in the plane or in space.
+template <int D>
+inline constexpr int field_count = D + symmetric_size<D>;
+template <int D>
+using CellFields = std::array<double, field_count<D>>;
+
+template <int D>
+Vector<D> velocity_of(const CellFields<D>& q) {
+  Vector<D> v;
+  for (int i = 0; i < D; ++i) v[i] = q[i];
+  return v;
+}
+template <int D>
+Symmetric<D> stress_of(const CellFields<D>& q) {
+  Symmetric<D> T;
+  for (int k = 0; k < symmetric_size<D>; ++k) T[k] = q[D + k];
+  return T;
+}
+
+/// One cache line in two dimensions, two in three.
+template <int D>
+struct alignas(64) CellRecord {
+  CellFields<D> q{};
+  Vector<D> centre{};  // [m]
+  double density = 0;  // [kg/m^3]
+};
+static_assert(sizeof(CellRecord<2>) == 64 && sizeof(CellRecord<3>) == 128);
+
+template <int D>
+struct FlowState {
+  FlowState(int cells, int nodes)
+      : cell(cells), energy(cells), volume(cells), speed(cells), crossing(cells), x(nodes), v(nodes) {}
+
+  std::vector<CellRecord<D>> cell;
+  std::vector<double> energy;    // total specific [J/kg]
+  std::vector<double> volume;    // [m^3], or [m^2] per unit thickness
+  std::vector<double> speed;     // of the fastest wave [m/s]
+  std::vector<double> crossing;  // time that it takes through the cell's inner ball [s]
+  std::vector<Vector<D>> x, v;   // nodes: position [m]; velocity of the step that led here [m/s]
+};
+
+}  // namespace titin
