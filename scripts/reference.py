@@ -19,6 +19,7 @@ KINDS = {
     "fibre": "Fibres: passive",
     "active": "Fibres: active",
     "volumetric": "Volumetric functions",
+    "fluid": "Fluids and equations of state",
 }
 
 
@@ -67,7 +68,9 @@ def law_section(law):
         lines += [*table(law["parameters"]), ""]
     for found in law["published"]:
         lines += [f"* {found['tissue']}: `{found['parameters']}` ({found['source']})"]
-    return lines + ([""] if law["published"] else [])
+    if law["unpublished"]:
+        lines += [f"No published set: {law['unpublished'][0].lower()}{law['unpublished'][1:]}"]
+    return lines + [""]
 
 
 def materials_page(laws):

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/log.hpp"
 #include "base/words.hpp"
 
 namespace titin {
@@ -63,6 +64,11 @@ void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
     std::vector<std::string> regions;
     s.read("regions", regions, {.doc = "regions of the mesh that are made of it (default: all)"});
     materials[name] = Material::read(s);
+    if (!s.describing() && !materials[name]->has_volumetric_law())
+      logging::warning(
+          fmt::format("{}: without a volumetric law the elements' pressure stays 0: displacements alone carry "
+                      "the volume, and a material that is hard to compress locks",
+                      s.path()));
     if (!s.describing() && mesh.mesh) regions_are_right &= take_regions(name, regions, s, mesh);
   });
   if (root.describing() || !mesh.mesh || !regions_are_right) return;

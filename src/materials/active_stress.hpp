@@ -55,6 +55,10 @@ struct ActiveStress {
     if (stress == Stress::pk1 && across > 0)
       s.error("across", "pk1 pulls along n (x) a0 alone", "take another measure for a share across the fibre");
   }
+  std::vector<Advice> advice() const {
+    if (across <= along) return {};
+    return {{"across", "pulls more across the fibres than along them"}};
+  }
   bool symmetric() const {
     if (stress == Stress::kirchhoff) return true;
     if (projection == Projection::deviator) return false;

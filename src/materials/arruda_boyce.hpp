@@ -12,6 +12,10 @@ struct ArrudaBoyce {
   static constexpr auto formula =
       "W = mu sum_i a_i/locking_stretch^(2 i - 2) (I1^i - 3^i), a = 1/2, 1/20, 11/1050, 19/7000, 519/673750";
   static constexpr auto source = "Arruda & Boyce 1993, J. Mech. Phys. Solids 41:389";
+  inline static const std::array published{
+      ParameterSet{"vulcanised rubber of Treloar", R"(mu = "0.27 MPa", locking_stretch = 5.148)",
+                   "Arruda & Boyce 1993, J. Mech. Phys. Solids 41:389 (n k T = 0.27 MPa and N = 26.5 with the whole "
+                   "inverse Langevin function; locking_stretch is sqrt(N))"}};
   static constexpr std::array uses{Invariant::I1};
 
   double mu = 0, locking_stretch = 0;
@@ -22,6 +26,12 @@ struct ArrudaBoyce {
            {.range = {.min = 1, .open_min = true}, .required = true, .doc = "stretch at which chains are straight"});
   }
   /// I1^i - 3^i = e1 (I1^(i-1) + 3 I1^(i-2) + ...) keeps the digits of small strains.
+  std::vector<Advice> advice() const {
+    constexpr double short_chains = 1.2;
+    if (locking_stretch >= short_chains) return {};
+    return {{"locking_stretch",
+             "five terms of the series do not lock: at such short chains the law is far from the one it abbreviates"}};
+  }
   template <class T>
   T energy(const Invariants<T>& x) const {
     constexpr double a[5] = {1.0 / 2, 1.0 / 20, 11.0 / 1050, 19.0 / 7000, 519.0 / 673750};

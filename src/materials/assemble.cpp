@@ -159,19 +159,23 @@ void write(const Kinematics<T>& k, const Shapes<T>& A, std::array<T, 81>& out) {
 }  // namespace
 
 template <class T>
-void chain_rate(const Kinematics<T>& k, EnergyDerivatives<T>& W) {
+void chain_rate(const Kinematics<T>& k, InvariantSet used, EnergyDerivatives<T>& W) {
   if (k.options.rate != FibreRate::stretch_difference) return;
-  constexpr int i4 = index(Invariant::I4), ir = index(Invariant::rate);
   const bool full = k.options.measure == FibreMeasure::full;
-  const T root = sqrt(k.m), stretch = full ? root : T(root * k.y);
-  W.second[i4][i4] += W.second[i4][ir] * (0.5 / k.options.dt) / stretch;
+  for (const FamilyInvariants& family : families) {
+    if (!used.has(family.rate)) continue;
+    const int i4 = index(family.square), ir = index(family.rate);
+    const auto [u0, v0, u, v] = quadratic(k, family.square);
+    const T root = norm(u), stretch = full ? root : T(root * k.y);
+    W.second[i4][i4] += W.second[i4][ir] * (0.5 / k.options.dt) / stretch;
+  }
 }
 
 template <class T>
 Tensor3<T> assemble_stress(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W) {
   const auto G = gradients(k, used);
   Tensor3<T> P{};
-  for (int a = 0; a < index(Invariant::rate); ++a)
+  for (int a = 0; a < force_count; ++a)
     if (used.has(Invariant(a))) add(P, W.first[a], G[a]);
   return P;
 }
@@ -185,10 +189,9 @@ Tensor3<T> assemble_tangent(const Kinematics<T>& k, InvariantSet used, const Ene
   shapes.add_dyad(k.Ft, shapes.Y);
   shapes.add_dyad(shapes.Y, k.Ft);
   if (used.has(Invariant::I2)) shapes.add_dyad(shapes.Z, k.F);
-  const bool rate = used.has(Invariant::rate) && k.options.rate == FibreRate::velocity_gradient;
-  const int columns = invariant_count - (rate ? 0 : 1);
+  const int columns = k.options.rate == FibreRate::velocity_gradient ? invariant_count : force_count;
   Tensor3<T> P{};
-  for (int a = 0; a < index(Invariant::rate); ++a) {
+  for (int a = 0; a < force_count; ++a) {
     if (!used.has(Invariant(a))) continue;
     add(P, W.first[a], G[a]);
     V[a] = scaled(W.second[a][a], G[a]);
@@ -201,7 +204,7 @@ Tensor3<T> assemble_tangent(const Kinematics<T>& k, InvariantSet used, const Ene
 }
 
 #define TITIN_INSTANTIATE(T)                                                                            \
-  template void chain_rate(const Kinematics<T>&, EnergyDerivatives<T>&);                                \
+  template void chain_rate(const Kinematics<T>&, InvariantSet, EnergyDerivatives<T>&);                  \
   template Tensor3<T> assemble_stress(const Kinematics<T>&, InvariantSet, const EnergyDerivatives<T>&); \
   template Tensor3<T> assemble_tangent(const Kinematics<T>&, InvariantSet, const EnergyDerivatives<T>&, \
                                        std::array<T, 81>&);

@@ -9,9 +9,7 @@ FluidEntry entry() {
   info.kind = "fluid";
   info.needs_volumetric = false;
   return {std::move(info), [](Section s) -> std::shared_ptr<const Fluid> {
-            Law law;
-            law.bind(s);
-            return std::make_shared<detail::FluidAdaptor<Law>>(law);
+            return std::make_shared<detail::FluidAdaptor<Law>>(detail::read_law<Law>(s));
           }};
 }
 

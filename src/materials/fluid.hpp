@@ -64,6 +64,8 @@ struct PerfectGas {
   static constexpr auto name = "perfect_gas";
   static constexpr auto formula = "p = (gamma - 1) rho e";
   static constexpr auto source = "Toro 2009, Riemann Solvers, section 1.2";
+  inline static const std::array published{
+      ParameterSet{"air", R"(gamma = 1.4)", "Toro 2009, Riemann Solvers, section 1.2"}};
   double gamma = 1.4;
   void bind(Section& s) {
     s.read("gamma", gamma, {.range = {.min = 1, .open_min = true}, .doc = "ratio of specific heats"});
@@ -81,6 +83,13 @@ struct StiffenedGas {
   static constexpr auto name = "stiffened_gas";
   static constexpr auto formula = "p = (gamma - 1) rho (e - q) / (1 - b rho) - gamma Pi";
   static constexpr auto source = "Le Metayer & Saurel 2016, Phys. Fluids 28:046102";
+  inline static const std::array published{
+      ParameterSet{
+          "liquid water, 300 to 500 K",
+          R"(gamma = 1.19, stiffening = "702.8 MPa", covolume = "6.61e-4 m^3/kg", bond_energy = "-1177788 J/kg")",
+          "Le Metayer & Saurel 2016, Phys. Fluids 28:046102"},
+      ParameterSet{"water, without covolume", R"(gamma = 4.4, stiffening = "600 MPa")",
+                   "Saurel & Abgrall 1999, J. Comput. Phys. 150:425"}};
   double gamma = 4.4, stiffening = 0, covolume = 0, bond_energy = 0;
   void bind(Section& s) {
     s.read("gamma", gamma, {.range = {.min = 1, .open_min = true}, .doc = "Grueneisen-like exponent"});
@@ -102,6 +111,9 @@ struct MieGruneisen {
   static constexpr auto formula =
       "p = rho0 c0^2 y (chi - Gamma0 y/2) / (chi - s y)^2 + rho0 Gamma0 e, chi = rho/rho0, y = chi - 1";
   static constexpr auto source = "Meyers 1994, Dynamic Behavior of Materials, chapter 4";
+  inline static const std::array published{ParameterSet{
+      "copper", R"(reference_density = "8930 kg/m^3", sound_speed = "3940 m/s", slope = 1.489, gruneisen = 2)",
+      "Meyers 1994, Dynamic Behavior of Materials, table 4.1"}};
   double density = 0, sound_speed = 0, slope = 0, gruneisen = 0;
   void bind(Section& s) {
     s.read("reference_density", density,

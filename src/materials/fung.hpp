@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "materials/full_strain.hpp"
+#include "materials/overflow.hpp"
 #include "materials/registry.hpp"
 
 namespace titin {
@@ -22,6 +23,9 @@ struct Fung {
       "W = c/2 (exp(Q) - 1), Q = bff Eff^2 + bss Ess^2 + bnn Enn^2 + 2 (bffss Eff Ess + bssnn Ess Enn + bnnff Enn Eff) "
       "+ 2 (bfs Efs^2 + bsn Esn^2 + bfn Efn^2)";
   static constexpr auto source = "Fung 1993, Biomechanics, sec. 7.10; Usyk, Mazhari & McCulloch 2000, J. Elast. 61:143";
+  inline static const std::array published{ParameterSet{
+      "canine myocardium", R"(c = "0.88 kPa", bff = 18.5, bss = 3.58, bnn = 3.58, bfs = 2.8, bsn = 2.8, bfn = 2.8)",
+      "Usyk, Mazhari & McCulloch 2000, J. Elast. 61:143; numbers as in Chaste, CompressibleExponentialLaw"}};
   static constexpr std::array uses{Invariant::I1, Invariant::I2, Invariant::J, Invariant::I4,
                                    Invariant::I5, Invariant::I6, Invariant::I8};
   static constexpr bool needs_volumetric = true;
@@ -39,6 +43,12 @@ struct Fung {
     for (const auto& [key, b] : {std::pair{"bfs", &bfs}, {"bsn", &bsn}, {"bfn", &bfn}})
       s.read(key, *b, {.range = positive, .required = true, .doc = "exponent of shear between two axes"});
     if (!s.describing()) check(s);
+  }
+  std::vector<Advice> advice() const {
+    std::vector<Advice> list;
+    for (const auto& [key, exponent] : {std::pair{"bff", bff}, {"bss", bss}, {"bnn", bnn}})
+      for (const Advice& a : advice_of_exponent(key, exponent, 0.5 * strain_of_tissue)) list.push_back(a);
+    return list;
   }
   template <class T>
   T energy(const Invariants<T>& x) const {

@@ -8,6 +8,7 @@
 /// rounds that off, <E> = (E + sqrt(E^2 + w^2))/2 for E, at the price of a stress of the order k1 w/4 at rest.
 #pragma once
 
+#include "materials/overflow.hpp"
 #include "materials/registry.hpp"
 
 namespace titin {
@@ -18,6 +19,12 @@ struct Goh {
   static constexpr auto source = "Gasser, Ogden & Holzapfel 2006, J. R. Soc. Interface 3:15";
   static constexpr std::array uses{Invariant::I1, Invariant::I4};
   enum class Switch { E, I4, none };
+  inline static const std::array published{
+      ParameterSet{"human iliac artery, adventitia; beside neo_hookean mu = 7.64 kPa, families at 49.98 degrees",
+                   R"(k1 = "996.6 kPa", k2 = 524.6, kappa = 0.226)",
+                   "Gasser, Ogden & Holzapfel 2006, J. R. Soc. Interface 3:15, table 1"},
+      ParameterSet{"rabbit carotid artery, media; beside neo_hookean mu = 3 kPa, families at 29 degrees",
+                   R"(k1 = "2.3632 kPa", k2 = 0.8393)", "Holzapfel, Gasser & Ogden 2000, J. Elast. 61:1, table 2"}};
 
   double k1 = 0, k2 = 0, kappa = 0, switch_width = 0;
   Switch tension_only = Switch::E;
@@ -32,6 +39,15 @@ struct Goh {
            {.range = non_negative, .doc = "strain over which the switch E is rounded off, say 1e-4; 0 is sharp"});
     if (switch_width > 0 && tension_only != Switch::E)
       s.error("switch_width", "only the switch E can be rounded off", "drop it, or take switch = \"E\"");
+  }
+  std::vector<Advice> advice() const {
+    std::vector<Advice> list = advice_of_exponent("k2", k2, (1 - 3 * kappa) * strain_of_tissue);
+    if (kappa > 0.333)
+      list.push_back({"kappa", "1/3 makes the fibres isotropic: their direction has no effect; demiray does the same"});
+    if (tension_only == Switch::I4 && kappa > 0)
+      list.push_back({"switch", "with I4 and dispersion the stress jumps where fibres begin to pull; E does not"});
+    if (tension_only == Switch::none) list.push_back({"switch", "with none, fibres push when they are compressed"});
+    return list;
   }
   template <class T>
   T energy(const Invariants<T>& x) const {

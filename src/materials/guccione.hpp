@@ -5,6 +5,7 @@
 #pragma once
 
 #include "materials/full_strain.hpp"
+#include "materials/overflow.hpp"
 #include "materials/registry.hpp"
 
 namespace titin {
@@ -30,6 +31,7 @@ struct Guccione {
     s.read("bfs", bfs, {.range = positive, .required = true, .doc = "exponent of shear along the fibres"});
   }
   /// Sums of squares of E from invariants: E:E = (4 e1 - 2 e2 + e1^2)/4 and |E f|^2 = (e5 - 2 e4)/4.
+  std::vector<Advice> advice() const { return advice_of_exponent("bf", bf, 0.5 * strain_of_tissue); }
   template <class T>
   T energy(const Invariants<T>& x) const {
     using std::expm1;

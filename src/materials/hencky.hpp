@@ -12,6 +12,9 @@ struct Hencky {
   static constexpr auto name = "hencky";
   static constexpr auto formula = "W = mu ((ln l1)^2 + (ln l2)^2 + (ln l3)^2), l_a = J^-1/3 lambda_a";
   static constexpr auto source = "Hencky 1928, Z. Tech. Phys. 9:215";
+  inline static const std::array published{
+      ParameterSet{"rock of the Blake problem (small strains), E = 62.5 GPa, nu = 0.25", R"(mu = "25 GPa")",
+                   "Kamm & Ankeny 2009, LA-UR-09-01255"}};
 
   double mu = 0;
 

@@ -14,6 +14,10 @@ struct HolmesMow {
       "W = c/2 (exp(Q) - 1), c = H/(2 beta), Q = beta/H [(2 mu - lambda)(I1 - 3) + lambda (I2 - 3) - H ln J^2], H = "
       "lambda + 2 mu";
   static constexpr auto source = "Holmes & Mow 1990, J. Biomech. 23:1145";
+  inline static const std::array published{ParameterSet{
+      "bovine articular cartilage, confined compression", R"(mu = "0.2 MPa", lambda = "0 Pa", beta = 0.35)",
+      "Ateshian et al. 1997, J. Biomech. 30:1157 (H = lambda + 2 mu = 0.40 MPa; confined compression does not tell "
+      "lambda, which is 0 here)"}};
   static constexpr std::array uses{Invariant::I1, Invariant::I2, Invariant::J};
 
   double mu = 0, lambda = 0, beta = 0;
@@ -23,6 +27,13 @@ struct HolmesMow {
     s.read("lambda", lambda,
            {.unit = "Pa", .range = non_negative, .required = true, .doc = "first Lame constant at rest"});
     s.read("beta", beta, {.range = positive, .required = true, .doc = "how fast it stiffens"});
+  }
+  std::vector<Advice> advice() const {
+    constexpr double nearly_incompressible = 50;  // Poisson's ratio 0.49
+    if (lambda <= nearly_incompressible * mu) return {};
+    return {{"lambda",
+             "Poisson's ratio is above 0.49: elements of displacements alone lock; take neo_hookean with a "
+             "volumetric law"}};
   }
   template <class T>
   T energy(const Invariants<T>& x) const {

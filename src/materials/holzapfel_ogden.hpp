@@ -5,6 +5,7 @@
 /// directions that are not quite orthogonal leave no stress at rest.
 #pragma once
 
+#include "materials/overflow.hpp"
 #include "materials/registry.hpp"
 
 namespace titin {
@@ -38,6 +39,12 @@ struct HolzapfelOgden {
     exponent("bs", bs, "how fast sheets stiffen");
     stiffness("afs", afs, "stiffness of the coupling of fibres and sheets");
     exponent("bfs", bfs, "how fast the coupling stiffens");
+  }
+  std::vector<Advice> advice() const {
+    std::vector<Advice> list;
+    for (const auto& [key, exponent] : {std::pair{"bf", bf}, {"bs", bs}, {"bfs", bfs}})
+      for (const Advice& a : advice_of_exponent(key, exponent, strain_of_tissue)) list.push_back(a);
+    return list;
   }
   template <class T>
   T energy(const Invariants<T>& x) const {

@@ -22,6 +22,8 @@ struct Icnn {
       "softplus(bias_j)]";
   static constexpr auto source =
       "Amos, Xu & Kolter 2017, Proc. Mach. Learn. Res. 70:146; Klein et al. 2022, J. Mech. Phys. Solids 159:104703";
+  static constexpr auto unpublished =
+      "Weights come from a training of one's own: papers print curves, not weights, and none could be traced.";
   static constexpr std::array uses{Invariant::I1, Invariant::I2};
 
   std::vector<double> amplitude, weight_1, weight_2, bias;

@@ -29,37 +29,40 @@ Tensor3<T> green_strain(const Tensor3<T>& H) {
 
 /// Stretch at t_n: rate = (lambda - lambda_n) / dt.
 template <class T>
-void set_stretch_difference(Kinematics<T>& k, const Tensor3<T>& F_old) {
-  const Vector3<T> f_old = multiply(F_old, k.a0);
+void set_stretch_difference(Kinematics<T>& k, const Tensor3<T>& F_old, int family) {
+  const auto [u0, v0, u, v] = quadratic(k, families[family].square);
   const bool full = k.options.measure == FibreMeasure::full;
-  T old = norm(f_old), now = sqrt(k.m);
+  T old = norm(multiply(F_old, u0)), now = norm(u);
   if (!full) {
     old *= inverse_cbrt(determinant(F_old));
     now *= k.y;
   }
-  k.rate = (now - old) / k.options.dt;
+  k.rate[family] = (now - old) / k.options.dt;
 }
 
 /// With f_n = F_n a0, s = f . f_n, m = f . f, T = tr(F_n F^-1):
 /// isochoric r = J^-1/3 [sqrt(m) T / 3 - s / sqrt(m)] / dt, full r = [sqrt(m) - s / sqrt(m)] / dt.
 template <class T>
-void set_velocity_gradient(Kinematics<T>& k, const Tensor3<T>& F_old) {
-  const Vector3<T> f_old = multiply(F_old, k.a0);
-  const T s = dot(k.f, f_old), root = sqrt(k.m), scale = 1.0 / k.options.dt;
+void set_velocity_gradient(Kinematics<T>& k, const Tensor3<T>& F_old, int family) {
+  const auto [u0, v0, f, v] = quadratic(k, families[family].square);
+  const Vector3<T> f_old = multiply(F_old, u0);
+  const T m = dot(f, f), s = dot(f, f_old), root = sqrt(m), scale = 1.0 / k.options.dt;
+  T& rate = k.rate[family];
+  Tensor3<T>& G = k.G_rate[family];
   Vector3<T> c;  // factor of a0 in the gradient
   if (k.options.measure == FibreMeasure::full) {
-    k.rate = (root - s / root) * scale;
-    for (int i = 0; i < 3; ++i) c[i] = scale * (k.f[i] * (1.0 + s / k.m) - f_old[i]) / root;
-    k.G_rate = dyad(c, k.a0);
+    rate = (root - s / root) * scale;
+    for (int i = 0; i < 3; ++i) c[i] = scale * (f[i] * (1.0 + s / m) - f_old[i]) / root;
+    G = dyad(c, u0);
     return;
   }
   const T spin = contract(F_old, k.Ft);
-  k.rate = k.y * (root * spin / 3.0 - s / root) * scale;
-  for (int i = 0; i < 3; ++i) c[i] = scale * k.y * (k.f[i] * (s / k.m + spin / 3.0) - f_old[i]) / root;
-  k.G_rate = dyad(c, k.a0);
-  add<T>(k.G_rate, -k.rate / 3.0, k.Ft);
+  rate = k.y * (root * spin / 3.0 - s / root) * scale;
+  for (int i = 0; i < 3; ++i) c[i] = scale * k.y * (f[i] * (s / m + spin / 3.0) - f_old[i]) / root;
+  G = dyad(c, u0);
+  add<T>(G, -rate / 3.0, k.Ft);
   const Tensor3<T> pulled = multiply(multiply(k.Ft, transpose(F_old)), k.Ft);  // (F^-1 F_n F^-1)^T
-  add<T>(k.G_rate, -scale * k.y * root / 3.0, pulled);
+  add<T>(G, -scale * k.y * root / 3.0, pulled);
 }
 
 /// 2 s (F sym(u0 (x) v0) - (u . v)/3 Ft), the latter for isochoric invariants.
@@ -86,19 +89,19 @@ void deform(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fi
   k.y = inverse_cbrt(k.J);
   k.Ft = scaled<T>(1.0 / k.J, cofactor(F));
   k.options = options;
-  k.rate = 0;
+  k.rate = {};
   if (used.has_any({Invariant::I4, Invariant::I5, Invariant::I8})) {
     k.a0 = fibres.first;
     k.f = multiply(F, k.a0);
-    k.m = dot(k.f, k.f);
   }
   if (used.has_any({Invariant::I6, Invariant::I8})) {
     k.b0 = fibres.second;
     k.g = multiply(F, k.b0);
   }
-  if (used.has(Invariant::rate)) {
-    if (options.rate == FibreRate::stretch_difference) set_stretch_difference(k, F_old);
-    if (options.rate == FibreRate::velocity_gradient) set_velocity_gradient(k, F_old);
+  for (int family = 0; family < 2; ++family) {
+    if (!used.has(families[family].rate)) continue;
+    if (options.rate == FibreRate::stretch_difference) set_stretch_difference(k, F_old, family);
+    if (options.rate == FibreRate::velocity_gradient) set_velocity_gradient(k, F_old, family);
   }
 }
 
@@ -126,7 +129,8 @@ PerInvariant<T> values(const Kinematics<T>& k, InvariantSet used) {
     const T above = 4.0 * (dot(k.a0, Ea) + dot(Ea, Ea)) + not_a_number;
     v[index(Invariant::I5)] = full ? above : T(y4 * above + y4_1);
   }
-  if (used.has(Invariant::rate)) v[index(Invariant::rate)] = k.rate;
+  for (int family = 0; family < 2; ++family)
+    if (used.has(families[family].rate)) v[index(families[family].rate)] = k.rate[family];
   return v;
 }
 
@@ -156,7 +160,9 @@ PerInvariant<Tensor3<T>> gradients(const Kinematics<T>& k, InvariantSet used) {
     add<T>(G5, full ? T(2.0) : T(2.0 * y4), dyad(multiply(k.F, w), k.a0));
     if (!full) add<T>(G5, -4.0 / 3 * y4 * dot(w, w), k.Ft);
   }
-  if (used.has(Invariant::rate) && k.options.rate == FibreRate::velocity_gradient) G[index(Invariant::rate)] = k.G_rate;
+  for (int family = 0; family < 2; ++family)
+    if (used.has(families[family].rate) && k.options.rate == FibreRate::velocity_gradient)
+      G[index(families[family].rate)] = k.G_rate[family];
   return G;
 }
 

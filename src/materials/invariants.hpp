@@ -5,10 +5,10 @@
 ///
 ///     I1 = tr Cbar,   I2 = (I1^2 - tr Cbar^2) / 2,   J,
 ///     I4 = a0 . Cbar a0,   I5 = a0 . Cbar^2 a0,   I6 = b0 . Cbar b0,   I8 = a0 . Cbar b0   (C for Cbar: "full"),
-///     r = rate of sqrt(I4)
+///     r = rate of sqrt(I4), r6 = rate of sqrt(I6)
 ///
 /// For W(I_a):  P = sum W_a G_a  and  A = dP/dF = sum W_a D_a + sum W_ab G_a (x) G_b,  G_a = dI_a/dF, D_a = dG_a/dF.
-/// The rate r enters as one more invariant that has a gradient and no conjugate force (W_r = 0): a fibre stress that
+/// A rate enters as one more invariant that has a gradient and no conjugate force (W_r = 0): a fibre stress that
 /// depends on it contributes W_4r, and A loses its symmetry unless r is a function of I4 alone.
 /// Values are carried as what they exceed their value at rest (I1 - 3, J - 1, ...) and come from the Green strain, so
 /// that small strains keep their digits. All is NaN where J <= 0.
@@ -36,9 +36,17 @@ enum class FibreMeasure { isochoric, full };
 /// Which of two families of fibres a term means.
 enum class FibreFamily { first, second };
 
-enum class Invariant { I1, I2, J, I4, I5, I6, I8, rate };  // rate is the last: the others have forces
-inline constexpr int invariant_count = 8;
+enum class Invariant { I1, I2, J, I4, I5, I6, I8, rate, rate6 };  // the rates are the last: the others have forces
+inline constexpr int invariant_count = 9;
 constexpr int index(Invariant a) { return static_cast<int>(a); }
+inline constexpr int force_count = index(Invariant::rate);
+
+/// The squared stretch of a family and its rate.
+struct FamilyInvariants {
+  Invariant square, rate;
+};
+inline constexpr std::array families{FamilyInvariants{Invariant::I4, Invariant::rate},
+                                     FamilyInvariants{Invariant::I6, Invariant::rate6}};
 
 template <class T>
 using PerInvariant = std::array<T, invariant_count>;
@@ -58,6 +66,7 @@ class InvariantSet {
     return false;
   }
   constexpr bool has(Invariant a) const { return bits_ >> index(a) & 1u; }
+  constexpr bool has_rate() const { return has_any({Invariant::rate, Invariant::rate6}); }
 
  private:
   unsigned bits_ = 0;
@@ -78,10 +87,9 @@ struct Kinematics {
   T y;                   ///< J^-1/3
   Vector3<T> a0{}, f{};  ///< first fibre direction and F a0
   Vector3<T> b0{}, g{};  ///< second fibre direction and F b0
-  T m;                   ///< f . f
   FibreOptions options;
-  T rate = 0;         ///< of the stretch [1/s]
-  Tensor3<T> G_rate;  ///< its gradient; set for FibreRate::velocity_gradient only
+  std::array<T, 2> rate{};           ///< of the stretch, by family [1/s]
+  std::array<Tensor3<T>, 2> G_rate;  ///< their gradients; set for FibreRate::velocity_gradient only
 };
 
 /// Unit fibre directions in the reference configuration.
@@ -108,11 +116,11 @@ Quadratic<T> quadratic(const Kinematics<T>& k, Invariant a) {
   return {k.a0, k.b0, k.f, k.g};
 }
 
-/// The invariants' excess over rest: I1 - 3, I2 - 3, J - 1, I4 - 1, I5 - 1, I6 - 1, I8 - a0 . b0, rate.
+/// The invariants' excess over rest: I1 - 3, I2 - 3, J - 1, I4 - 1, I5 - 1, I6 - 1, I8 - a0 . b0, rates.
 template <class T>
 PerInvariant<T> values(const Kinematics<T>& k, InvariantSet used);
 
-/// G_a of the used invariants (the rate's only for FibreRate::velocity_gradient; see chain_rate).
+/// G_a of the used invariants (a rate's only for FibreRate::velocity_gradient; see chain_rate).
 template <class T>
 PerInvariant<Tensor3<T>> gradients(const Kinematics<T>& k, InvariantSet used);
 
@@ -124,10 +132,10 @@ struct EnergyDerivatives {
   PerPair<T> second;
 };
 
-/// Where the rate is a function of I4 (stretch difference), its derivatives become derivatives by I4: W_44 += W_4r
-/// dr/dI4.
+/// Where a rate is a function of I4 (stretch difference), its derivatives become derivatives by I4: W_44 += W_4r
+/// dr/dI4; so for I6.
 template <class T>
-void chain_rate(const Kinematics<T>& k, EnergyDerivatives<T>& W);
+void chain_rate(const Kinematics<T>& k, InvariantSet used, EnergyDerivatives<T>& W);
 
 /// P [Pa] from first derivatives.
 template <class T>

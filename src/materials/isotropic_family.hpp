@@ -12,6 +12,9 @@ struct IsotropicFamily {
   static constexpr auto formula = "W = mu/4 [-2 a (I1 - 3) + (1 + a)/3 (I2^2 - 9)]";
   static constexpr auto source =
       "the family of Boscheri, Loubere & Maire in their ADER-MOOD scheme for hyperelastic solids";
+  inline static const std::array published{ParameterSet{"rubber of the twisting column, E = 17 MPa, nu = 0.45",
+                                                        R"(mu = "5.862069 MPa", a = -1)",
+                                                        "Boscheri, Loubere & Maire 2022, J. Comput. Phys. 449:110779"}};
   static constexpr std::array uses{Invariant::I1, Invariant::I2};
 
   double mu = 0, a = -1;

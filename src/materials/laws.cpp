@@ -6,6 +6,7 @@
 #include "materials/cann.hpp"
 #include "materials/collagen_table.hpp"
 #include "materials/compressible_neo_hookean.hpp"
+#include "materials/demiray.hpp"
 #include "materials/fluid.hpp"
 #include "materials/fung.hpp"
 #include "materials/gent.hpp"

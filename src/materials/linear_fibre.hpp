@@ -10,6 +10,9 @@ struct LinearFibre {
   static constexpr auto name = "linear_fibre";
   static constexpr auto formula = "W = stiffness/2 <lambda - 1>^2, lambda = sqrt(I4)";
   static constexpr auto source = "common; e.g. Bonet & Burton 1998, Comput. Methods Appl. Mech. Eng. 162:151";
+  inline static const std::array published{
+      ParameterSet{"human medial collateral ligament, straight fibres", R"(stiffness = "332.2 MPa")",
+                   "Quapp & Weiss 1998, J. Biomech. Eng. 120:757 (tangent modulus along the fibres)"}};
   static constexpr bool uses_rate = false;
 
   double stiffness = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "materials/growth.hpp"
+#include "materials/material_advice.hpp"
 #include "materials/memory_material.hpp"
 #include "materials/sum_material.hpp"
 
@@ -142,7 +143,9 @@ std::shared_ptr<const Material> Material::read(Section s) {
   read_constituent(s, 1 - share, parts);
   if (mixed) read_constituent(s.section("mix"), share, parts);
   read_fibres(s, parts);
-  return read_growth(s, with_memory(std::move(parts)));
+  auto material = read_growth(s, with_memory(std::move(parts)));
+  if (!s.describing()) advise(s, *material);
+  return material;
 }
 
 }  // namespace titin

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/config.hpp"
+#include "base/log.hpp"
 #include "materials/power_term.hpp"
 #include "materials/term.hpp"
 
@@ -20,11 +21,17 @@ struct ParameterSet {
   std::string tissue, parameters, source;
 };
 
+/// What a user should know of numbers that are allowed but seldom meant, or that make trouble later on.
+struct Advice {
+  std::string key, text;  ///< the key that it is about; "" for the law as a whole
+};
+
 struct LawInfo {
-  std::string name, kind, formula, source;  ///< kind: matrix, fibre, active or volumetric
+  std::string name, kind, formula, source;  ///< kind: matrix, fibre, active, volumetric or fluid
   std::vector<KeyRecord> parameters;
   std::vector<ParameterSet> published;
-  bool needs_fibre = false, needs_second_fibre = false, stores_energy = true, uses_rate = false;
+  std::string unpublished;  ///< why there is no published set; "" when there is one
+  bool needs_fibre = false, needs_second_fibre = false, stores_energy = true, uses_rate = false, advises = false;
   bool has_potential = true;     ///< stores energy, or would while its activation is held
   bool needs_volumetric = true;  ///< false for laws that resist changes of volume themselves
   std::string pulls_at_rest;     ///< why there is stress without deformation; "" when there is none
@@ -48,7 +55,7 @@ struct TermOptions {
 
 struct LawEntry {
   LawInfo info;
-  bool either_family = false;  ///< a fibre law without rate: may run along the second family too
+  bool either_family = false;  ///< a law of one family of fibres: may run along the second too
   std::function<std::unique_ptr<Term>(Section, TermOptions)> read;
 };
 struct VolumetricEntry {
@@ -80,8 +87,22 @@ LawInfo info() {
   LawInfo info;
   info.name = Law::name, info.formula = Law::formula, info.source = Law::source;
   info.published = published<Law>();
+  if constexpr (requires { Law::unpublished; }) info.unpublished = Law::unpublished;
+  info.advises = requires(Law law) { law.advice(); };
   if constexpr (requires { Law::pulls_at_rest; }) info.pulls_at_rest = Law::pulls_at_rest;
   return info;
+}
+
+/// Reads a law's keys and says what it has to say about them.
+template <class Law>
+Law read_law(Section s) {
+  Law law;
+  law.bind(s);
+  if constexpr (requires { law.advice(); })
+    if (!s.describing())
+      for (const Advice& a : law.advice())
+        logging::warning(fmt::format("{}{}{}: {}", s.path(), a.key.empty() ? "" : ".", a.key, a.text));
+  return law;
 }
 
 template <class Law>
@@ -105,20 +126,16 @@ bool register_law() {
   info.needs_fibre = term->needs_fibre();
   info.needs_second_fibre = term->needs_second_fibre();
   info.stores_energy = term->stores_energy();
-  info.uses_rate = uses.has(Invariant::rate);
+  info.uses_rate = uses.has_rate();
   info.has_potential = info.stores_energy || requires(Law law) { law.potential(1.0, 0.0); };
   if constexpr (requires { Law::needs_volumetric; })
     info.needs_volumetric = Law::needs_volumetric;
   else
     info.needs_volumetric = !uses.has(Invariant::J);
   info.kind = !info.stores_energy ? "active" : info.needs_fibre ? "fibre" : "matrix";
-  const bool either =
-      uses.has(Invariant::I4) && !uses.has_any({Invariant::I5, Invariant::I6, Invariant::I8, Invariant::rate});
-  return add(LawEntry{std::move(info), either, [](Section s, TermOptions options) {
-                        Law law;
-                        law.bind(s);
-                        return make_term(std::move(law), options);
-                      }});
+  const bool either = uses.has(Invariant::I4) && !uses.has_any({Invariant::I5, Invariant::I6, Invariant::I8});
+  return add(LawEntry{std::move(info), either,
+                      [](Section s, TermOptions options) { return make_term(read_law<Law>(s), options); }});
 }
 
 template <class Law>
@@ -138,11 +155,8 @@ template <class Law>
 bool register_volumetric() {
   LawInfo info = detail::info<Law>();
   info.kind = "volumetric";
-  return add(VolumetricEntry{std::move(info), [](Section s) {
-                               Law law;
-                               law.bind(s);
-                               return std::make_unique<VolumetricAdaptor<Law>>(law);
-                             }});
+  return add(VolumetricEntry{std::move(info),
+                             [](Section s) { return std::make_unique<VolumetricAdaptor<Law>>(read_law<Law>(s)); }});
 }
 
 }  // namespace detail

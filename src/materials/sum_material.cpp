@@ -36,13 +36,14 @@ class Block {
   Block(const PointInput& in, int first, InvariantSet used, const SumMaterial::Parts& parts, FibreMeasure measure)
       : first_(first), end_(in.n) {
     const FibreRate rate = in.F_old && in.dt > 0 ? in.rate : FibreRate::none;
-    if (rate == FibreRate::none) used.erase(Invariant::rate);
+    for (const FamilyInvariants& family : families)
+      if (rate == FibreRate::none) used.erase(family.rate);
     used_ = used;
     options_ = {measure, rate, in.dt};
     points.n = std::min(block_size, in.n - first);
     points.time = in.time;
     points.F = in.F + first;
-    points.excess[index(Invariant::rate)].fill(0);
+    for (const FamilyInvariants& family : families) points.excess[index(family.rate)].fill(0);
     for (int g = 0; g < active_groups(); ++g) set_group(in, parts.fibres, g);
   }
 
@@ -54,7 +55,7 @@ class Block {
       W_.first[a].fill(0);
       if (want_second)
         for (int b = 0; b < invariant_count; ++b)
-          if (used_.has(Invariant(b)) || Invariant(b) == Invariant::rate) W_.second[a][b].fill(0);
+          if (used_.has(Invariant(b)) || b >= force_count) W_.second[a][b].fill(0);
     }
     for (const WeightedTerm& t : terms) t.term->add_derivatives(points, t.weight, W_);
   }
@@ -83,7 +84,7 @@ class Block {
     const int p = first_ + g * lane_count;
     Tensor3<Lanes> F_old;
     FibrePair<Lanes> fibres;
-    if (used_.has(Invariant::rate)) F_old = gather_all(in.F_old, p, end_);
+    if (used_.has_rate()) F_old = gather_all(in.F_old, p, end_);
     if (used_.has_any({Invariant::I4, Invariant::I5, Invariant::I8}))
       fibres.first = directions(in.fibre, own.first, p, end_);
     if (used_.has_any({Invariant::I6, Invariant::I8})) fibres.second = directions(in.second_fibre, own.second, p, end_);
@@ -101,7 +102,7 @@ class Block {
       for (int b = 0; b < invariant_count; ++b)
         if (used_.has(Invariant(b))) W.second[a][b] = load(W_.second[a][b], g);
     }
-    if (W_.want_second && used_.has(Invariant::rate)) chain_rate(kinematics_[g], W);
+    if (W_.want_second && used_.has_rate()) chain_rate(kinematics_[g], used_, W);
   }
 
   int first_, end_;
@@ -120,7 +121,7 @@ SumMaterial::SumMaterial(Parts parts) : parts_(std::move(parts)), used_(used_by(
 bool SumMaterial::symmetric_tangent(FibreRate rate) const {
   const auto symmetric = [](const WeightedTerm& t) { return t.term->symmetric(); };
   if (!std::all_of(parts_.terms.begin(), parts_.terms.end(), symmetric)) return false;
-  return rate != FibreRate::velocity_gradient || !used_.has(Invariant::rate);
+  return rate != FibreRate::velocity_gradient || !used_.has_rate();
 }
 
 void SumMaterial::evaluate(const PointInput& in, std::span<const WeightedTerm> terms, Mat3* P, Mat9* A) const {

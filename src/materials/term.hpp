@@ -199,19 +199,18 @@ template <FibreLaw Law>
 class FibreTerm final : public Term {
  public:
   FibreTerm(Law law, FibreFamily family)
-      : law_(std::move(law)), slot_(family == FibreFamily::second ? Invariant::I6 : Invariant::I4) {}
+      : law_(std::move(law)), slots_(families[family == FibreFamily::second ? 1 : 0]) {}
   bool stores_energy() const override { return StoringFibreLaw<Law>; }
   InvariantSet uses() const override {
     InvariantSet set;
-    set.insert(slot_);
-    if (Law::uses_rate) set.insert(Invariant::rate);
+    set.insert(slots_.square);
+    if (Law::uses_rate) set.insert(slots_.rate);
     return set;
   }
   void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const override {
     constexpr int M = Law::uses_rate ? 2 : 1;
     using Number = Dual<M, 1>;
-    constexpr int ir = index(Invariant::rate);
-    const int i4 = index(slot_);
+    const int i4 = index(slots_.square), ir = index(slots_.rate);
     for (int p = 0; p < points.n; ++p) {
       const double I4 = 1 + points.excess[i4][p], stretch = std::sqrt(I4), half = 0.5 * weight / I4;
       Number rate = 0;
@@ -225,12 +224,11 @@ class FibreTerm final : public Term {
   }
   void add_energy(const PointBlock& points, double weight, double* sum) const override {
     if constexpr (StoringFibreLaw<Law>)
-      for (int p = 0; p < points.n; ++p) sum[p] += weight * law_.energy(std::sqrt(1 + points.excess[index(slot_)][p]));
+      for (int p = 0; p < points.n; ++p) sum[p] += weight * law_.energy(stretch(points, p));
   }
   void add_potential(const PointBlock& points, double weight, double* sum) const override {
     if constexpr (requires { law_.potential(1.0, 0.0); })
-      for (int p = 0; p < points.n; ++p)
-        sum[p] += weight * law_.potential(std::sqrt(1 + points.excess[index(slot_)][p]), points.time);
+      for (int p = 0; p < points.n; ++p) sum[p] += weight * law_.potential(stretch(points, p), points.time);
     else
       add_energy(points, weight, sum);
   }
@@ -242,8 +240,12 @@ class FibreTerm final : public Term {
   }
 
  private:
+  double stretch(const PointBlock& points, int p) const {
+    return std::sqrt(1 + points.excess[index(slots_.square)][p]);
+  }
+
   Law law_;
-  Invariant slot_;
+  FamilyInvariants slots_;
 };
 
 }  // namespace titin

@@ -19,6 +19,8 @@ struct SimoVolume : BulkModulus {
   static constexpr auto name = "simo";
   static constexpr auto formula = "U = K/4 (D^2 - 1 - 2 ln D)";
   static constexpr auto source = "Simo & Taylor 1991, Comput. Methods Appl. Mech. Eng. 85:273";
+  inline static const std::array published{
+      ParameterSet{"skeletal muscle", R"(bulk_modulus = "10 MPa")", "Flexodeal Lite 1.5.4, parameters.prm"}};
   template <class T>
   T energy(const T& ratio) const {
     using std::log;
@@ -32,6 +34,8 @@ struct QuadraticVolume : BulkModulus {
   static constexpr auto name = "quad";
   static constexpr auto formula = "U = K/2 (D - 1)^2";
   static constexpr auto source = "the default of Abaqus, among others";
+  inline static const std::array published{
+      ParameterSet{"myocardium", R"(bulk_modulus = "1 MPa")", "CardioMechanics, example EM01"}};
   template <class T>
   T energy(const T& ratio) const {
     const T change = ratio - 1.0;
@@ -45,6 +49,8 @@ struct LogarithmicVolume : BulkModulus {
   static constexpr auto name = "log";
   static constexpr auto formula = "U = K/2 (ln D)^2";
   static constexpr auto source = "the default of FEBio's uncoupled solids";
+  inline static const std::array published{
+      ParameterSet{"skeletal muscle", R"(bulk_modulus = "10 MPa")", "FEBio test decks mu02 and mu03"}};
   template <class T>
   T energy(const T& ratio) const {
     using std::log;
@@ -59,6 +65,9 @@ struct QuadraticLogarithmicVolume : BulkModulus {
   static constexpr auto name = "quad_log";
   static constexpr auto formula = "U = K/4 [(D - 1)^2 + (ln D)^2]";
   static constexpr auto source = "Boscheri, Loubere & Maire, ADER-MOOD scheme for hyperelastic solids";
+  inline static const std::array published{ParameterSet{"rubber of the twisting column, E = 17 MPa, nu = 0.45",
+                                                        R"(bulk_modulus = "56.66667 MPa")",
+                                                        "Boscheri, Loubere & Maire 2022, J. Comput. Phys. 449:110779"}};
   template <class T>
   T energy(const T& ratio) const {
     using std::log;

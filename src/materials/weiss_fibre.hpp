@@ -15,6 +15,13 @@ struct WeissFibre {
   static constexpr auto formula =
       "lambda dW/dlambda = 0 (lambda < 1), c3 (exp(c4 (lambda - 1)) - 1), c5 lambda + c6 (lambda > lambda_straight)";
   static constexpr auto source = "Weiss, Maker & Govindjee 1996, Comput. Methods Appl. Mech. Eng. 135:107";
+  inline static const std::array published{
+      ParameterSet{"human medial collateral ligament; beside mooney_rivlin c1 = 1.44 MPa, c2 = 0",
+                   R"(c3 = "0.57 MPa", c4 = 48, c5 = "467.1 MPa", lambda_straight = 1.062)",
+                   "Gardiner & Weiss 2003, J. Orthop. Res. 21:1098"},
+      ParameterSet{"tendon; beside blemker_shear g1 = g2 = 50 kPa",
+                   R"(c3 = "2.7 MPa", c4 = 46.4, lambda_straight = 1.03)",
+                   "Blemker, Pinsky & Delp 2005, J. Biomech. 38:657"}};
   static constexpr bool uses_rate = false;
   double c3 = 0, c4 = 0, c5 = 0, lambda_straight = 0;
 
@@ -27,6 +34,14 @@ struct WeissFibre {
             .doc = "modulus of straight fibres; 0: that which they have when they become straight"});
     s.read("lambda_straight", lambda_straight,
            {.range = {.min = 1, .open_min = true}, .required = true, .doc = "stretch from which fibres are straight"});
+  }
+  std::vector<Advice> advice() const {
+    const double end = c3 * c4 * std::exp(c4 * (lambda_straight - 1));
+    if (c5 == 0 || (c5 > 0.5 * end && c5 < 2 * end)) return {};
+    return {
+        {"c5", fmt::format("straight fibres of {:.3g} Pa begin where uncrimping ones have {:.3g} Pa: the tangent jumps "
+                           "there; 0 takes the latter",
+                           c5, end)}};
   }
   template <class T>
   T fibre_stress(const T& stretch, const T& /*rate*/, double /*time*/) const {

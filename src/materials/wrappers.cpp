@@ -1,6 +1,9 @@
 /// What a term's table says should be wrapped around it.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "base/log.hpp"
 #include "materials/damage.hpp"
 #include "materials/fibre_maxwell.hpp"
 #include "materials/maxwell.hpp"
@@ -17,6 +20,16 @@ void read_reference(Section& s, Reference& reference) {
            {.doc = "which stress the law gives: the one that stays, or the one at once"});
 }
 
+/// Branches with nearly the same time are one branch: fits with such pairs do not determine their strengths.
+void advise_times(const Section& s, std::vector<double> times) {
+  constexpr double least = 1.5;
+  std::sort(times.begin(), times.end());
+  for (std::size_t i = 0; i + 1 < times.size(); ++i)
+    if (times[i + 1] < least * times[i])
+      logging::warning(fmt::format("{}.time: {:g} s and {:g} s are nearly the same branch; one is enough", s.path(),
+                                   times[i], times[i + 1]));
+}
+
 /// Strengths over the reference stress; instantaneous ones must leave something.
 RelaxationSeries read_prony(Section s) {
   RelaxationSeries series;
@@ -29,6 +42,7 @@ RelaxationSeries read_prony(Section s) {
   if (series.strength.size() != series.time.size())
     s.error("time", fmt::format("{} times for {} strengths", series.time.size(), series.strength.size()),
             "give one for each branch");
+  advise_times(s, series.time);
   if (reference == Reference::instantaneous) {
     for (double g : series.strength) series.elastic -= g;
     if (series.elastic < 0)
@@ -81,7 +95,7 @@ Wrapper read_maxwell(Section s, const Term* term, TermOptions options) {
   MaxwellFlow flow;
   flow.bind(s);
   if (!term) return {};
-  if (term->needs_second_fibre() || term->uses().has(Invariant::rate) || !term->stores_energy())
+  if (term->needs_second_fibre() || term->uses().has_rate() || !term->stores_energy())
     s.error("", "the spring of a Maxwell branch is an isotropic law, or one of a single fibre that stores energy",
             "take prony for other laws");
   const bool along_fibres = term->needs_fibre();
@@ -111,6 +125,11 @@ std::vector<Wrapper> read_wrappers(Section& term, const Term* law, TermOptions o
     DamageLaw law;
     Section damage = term.section("damage", "softening by the largest energy so far");
     law.bind(damage);
+    if (!term.describing() && law.time == 0)
+      logging::warning(
+          fmt::format("{}.time: without a relaxation time softening gathers in one row of elements, and "
+                      "results depend on the mesh",
+                      damage.path()));
     wrappers.push_back([law](std::shared_ptr<const Response> inside) {
       return std::make_shared<DamageResponse>(law, std::move(inside));
     });

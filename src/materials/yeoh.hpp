@@ -12,6 +12,8 @@ struct Yeoh {
   static constexpr auto source = "Yeoh 1993, Rubber Chem. Technol. 66:754";
   static constexpr std::array uses{Invariant::I1};
   inline static const std::array published{
+      ParameterSet{"human abdominal aortic aneurysm", R"(c1 = "174 kPa", c2 = "1881 kPa")",
+                   "Raghavan & Vorp 2000, J. Biomech. 33:475 (17.4 and 188.1 N/cm^2)"},
       ParameterSet{"muscle, base material without fibres", R"(c1 = "39811.1915020669 Pa", c2 = "73246.6965293830 Pa")",
                    "Flexodeal Lite 1.5.4, parameters.prm (scale 2e5 Pa times 0.19906, 0.36623)"},
       ParameterSet{"tendon and aponeurosis, base material without fibres",
@@ -24,6 +26,13 @@ struct Yeoh {
     s.read("c1", c1, {.unit = "Pa", .range = positive, .required = true, .doc = "half the shear modulus at rest"});
     s.read("c2", c2, {.unit = "Pa", .doc = "factor of (I1 - 3)^2"});
     s.read("c3", c3, {.unit = "Pa", .range = non_negative, .doc = "factor of (I1 - 3)^3"});
+  }
+  std::vector<Advice> advice() const {
+    const double at = c3 > 0 ? -c2 / (3 * c3) : 0;  // I1 - 3 where the slope is smallest
+    const bool falls = c2 < 0 && (c3 == 0 || c1 + c2 * at <= 0);
+    if (!falls) return {};
+    return {{"c2",
+             "with a negative c2 and too little c3 the material softens at larger strains and finds no stable state"}};
   }
   template <class T>
   T energy(const Invariants<T>& x) const {

@@ -111,7 +111,7 @@ PointText point_text_of_laws(const std::vector<std::string>& names, const std::v
     return text.starts_with(the_material + ".volumetric");
   });
   if (!resists && !has_volumetric)  // this modulus is never looked at
-    point.text += "volumetric = { law = \"simo\", bulk_modulus = \"1 GPa\" }\n[point]\nvolume = \"incompressible\"\n";
+    point.text += "volumetric = { law = \"simo\", bulk_modulus = \"1 MPa\" }\n[point]\nvolume = \"incompressible\"\n";
   for (const std::string& law : names)
     point.text += fmt::format("[{}.terms.{}]\nlaw = {}\n", the_material, law, toml_string(law));
   return point;

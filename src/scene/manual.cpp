@@ -60,6 +60,7 @@ void print_law(const LawInfo& law) {
   if (!law.parameters.empty()) print_table(table_of(law.parameters));
   for (const ParameterSet& set : law.published)
     print(fmt::format("  {}: {} ({})", set.tissue, set.parameters, set.source));
+  if (!law.unpublished.empty()) print(fmt::format("  no published set: {}", law.unpublished));
 }
 
 nlohmann::ordered_json json_of(const LawInfo& law) {
@@ -69,6 +70,7 @@ nlohmann::ordered_json json_of(const LawInfo& law) {
   for (const KeyRecord& key : law.parameters) entry["parameters"].push_back(json_of(key));
   for (const ParameterSet& set : law.published)
     entry["published"].push_back({{"tissue", set.tissue}, {"parameters", set.parameters}, {"source", set.source}});
+  entry["unpublished"] = law.unpublished;
   return entry;
 }
 

@@ -43,13 +43,13 @@ Point moving() { return {.F = general_F, .F_old = general_F_old, .rate = FibreRa
 TEST(FibreRate, OfTheVelocityGradientIsItsDefinition) {
   for (FibreMeasure measure : {FibreMeasure::isochoric, FibreMeasure::full}) {
     const double rate = defined_rate(moving(), measure);
-    EXPECT_NEAR(kinematics_of(moving(), measure).rate, rate, round_off * std::abs(rate));
+    EXPECT_NEAR(kinematics_of(moving(), measure).rate[0], rate, round_off * std::abs(rate));
   }
 }
 
 TEST(FibreRate, GradientOfTheVelocityGradientsRateIsExactAtTheOrderOfDifferences) {
   for (FibreMeasure measure : {FibreMeasure::isochoric, FibreMeasure::full}) {
-    const Mat3 G = kinematics_of(moving(), measure).G_rate;
+    const Mat3 G = kinematics_of(moving(), measure).G_rate[0];
     double last = 0;
     for (double h : {4e-3, 2e-3, 1e-3}) {
       Mat3 difference;

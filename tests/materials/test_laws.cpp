@@ -1,5 +1,6 @@
 // What single laws promise beyond what every law must keep.
 #include <filesystem>
+#include <sstream>
 
 #include "materials_for_tests.hpp"
 
@@ -110,6 +111,19 @@ TEST(Goh, RoundedSwitchTendsToTheSharpOneAndHasASmoothTangent) {
   const MaterialPointer smooth = material_of("goh", R"(k1 = "2 kPa", k2 = 2, switch_width = 1e-4)");
   EXPECT_LT(size_of(stress(*smooth, {.F = pushed})), 1e-3);
   expect_message("rounded off", "goh", fibres + R"(, switch = "none", switch_width = 1e-4)");
+}
+
+/// The page that shows how a law is added shows this one, as it is.
+TEST(Demiray, StandsInTheHowtoAsInItsFile) {
+  const auto text = [](const char* path) {
+    std::stringstream whole;
+    whole << std::ifstream(std::string(TITIN_TEST_DATA) + "/../../" + path).rdbuf();
+    return whole.str();
+  };
+  const std::string law = text("src/materials/demiray.hpp");
+  ASSERT_FALSE(law.empty());
+  EXPECT_NE(text("docs/howto/add_a_material.md").find(law), std::string::npos) << "copy the file into the page again";
+  EXPECT_NE(text("src/materials/laws.cpp").find("#include \"materials/demiray.hpp\"\n"), std::string::npos);
 }
 
 TEST(Hencky, IsTheLimitOfOgdenPowersAlsoAtEqualStretches) {

@@ -24,9 +24,21 @@ double distance(const Mat3& a, const Mat3& b) {
   return d;
 }
 
+/// A deformation in which a logarithmic spring of mu = 5 Pa has this Kirchhoff stress: F = exp(tau/(2 mu)) Q.
+Mat3 of_stress(const Mat3& tau) {
+  const Eigenpairs e = eigenpairs(tau);
+  Mat3 V{};
+  for (int a = 0; a < 3; ++a) add(V, std::exp(e.values[a] / 10), dyad(e.vectors[a], e.vectors[a]));
+  return multiply(V, rotation(0.7));
+}
+
 using Path = Mat3 (*)(double t);
 Mat3 uniaxial(double) { return diagonal(1.3, 1 / std::sqrt(1.3), 1 / std::sqrt(1.3)); }
 Mat3 cyclic_shear(double t) { return {1, 0.4 * std::sin(2 * M_PI * t), 0, 0, 1, 0, 0, 0, 1}; }
+Mat3 general(double) {
+  static const Mat3 F = of_stress(tau_of(time_dependent()["rg_hencky_step"]["tau_neq"]["general_B"]["0.0"]));
+  return F;
+}
 
 /// Kirchhoff stress at `end`; the deformation steps to path(0) at the start.
 Mat3 run(Path path, double end, int steps) {
@@ -63,18 +75,12 @@ TEST_P(Branch, ConvergesAtFirstOrderToTheReference) {
 INSTANTIATE_TEST_SUITE_P(All, Branch,
                          ::testing::Values(Case{"rg_neohooke_step_uniax", uniaxial, "1"},
                                            Case{"rg_neohooke_step_uniax", uniaxial, "5"},
+                                           Case{"rg_neohooke_step_generalB", general, "1"},
+                                           Case{"rg_neohooke_step_generalB", general, "2"},
                                            Case{"rg_neohooke_cyclic_shear", cyclic_shear, "0.25"},
                                            Case{"rg_neohooke_cyclic_shear", cyclic_shear, "0.5"},
                                            Case{"rg_neohooke_cyclic_shear", cyclic_shear, "2.0"}),
                          [](const auto& info) { return "case_" + std::to_string(info.index); });
-
-/// A deformation in which a logarithmic spring of mu = 5 Pa has this Kirchhoff stress: F = exp(tau/(2 mu)) Q.
-Mat3 of_stress(const Mat3& tau) {
-  const Eigenpairs e = eigenpairs(tau);
-  Mat3 V{};
-  for (int a = 0; a < 3; ++a) add(V, std::exp(e.values[a] / 10), dyad(e.vectors[a], e.vectors[a]));
-  return multiply(V, rotation(0.7));
-}
 
 /// A logarithmic spring relaxes by exactly 1/(1 + dt mu/eta_D) in every step, whatever the deformation.
 TEST(HenckyBranch, RelaxesByTheSameFactorInEveryStep) {

@@ -127,6 +127,31 @@ TEST(ReadMaterial, SaysWhatIsWrongAndWhatToDo) {
   }
 }
 
+std::string warnings(const std::string& lines) {
+  ::testing::internal::CaptureStderr();
+  material(lines);
+  return ::testing::internal::GetCapturedStderr();
+}
+
+/// Of the material as a whole and of what is wrapped around its terms; laws: test_registry.cpp.
+TEST(ReadMaterial, WarnsOfWhatIsSeldomMeant) {
+  const auto of_bulk_modulus = [](const char* value) {
+    return warnings("density = \"1 kg/m^3\"\nvolumetric.bulk_modulus = \"" + std::string(value) + "\"\n" + base);
+  };
+  EXPECT_EQ(of_bulk_modulus("99 MPa"), "");
+  EXPECT_NE(of_bulk_modulus("1 GPa").find("materials.m: the bulk modulus is 1e+06 times the shear modulus"),
+            std::string::npos);
+  const auto wrapped = [](const std::string& wrapper) {
+    return warnings(head + "[materials.m.terms]\nt = { law = \"neo_hookean\", mu = \"1 kPa\", " + wrapper + " }\n");
+  };
+  EXPECT_EQ(wrapped("prony = { strength = [0.1, 0.2], time = \"3, 1 s\" }"), "");
+  EXPECT_NE(wrapped("prony = { strength = [0.1, 0.2], time = \"1.4, 1 s\" }").find("t.prony.time: 1 s and 1.4 s"),
+            std::string::npos);
+  const std::string damage = "damage = { law = \"exponential\", scale = \"1 kJ/m^3\"";
+  EXPECT_EQ(wrapped(damage + ", time = \"1 s\" }"), "");
+  EXPECT_NE(wrapped(damage + " }").find("t.damage.time: without a relaxation time"), std::string::npos);
+}
+
 /// The list of laws grows; what must be there is the advice.
 TEST(ReadMaterial, SuggestsTheLawThatWasMeant) {
   const auto said = messages(head + "[materials.m.terms]\nt = { law = \"neo_hokean\", mu = \"1 kPa\" }\n");

@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <map>
+#include <set>
 
+#include "materials/fluid.hpp"
 #include "materials_for_tests.hpp"
 
 namespace titin::testing {
@@ -20,6 +22,7 @@ constexpr double round_off = 1e-12;
 const std::map<std::string, std::vector<std::string>>& more_parameters() {
   static const std::map<std::string, std::vector<std::string>> sets{
       {"mooney_rivlin", {R"(c1 = "6 kPa", c2 = "2 kPa")"}},
+      {"demiray", {R"(a = "10 kPa", b = 3)"}},
       {"active_stress",
        {R"(peak_stress = "50 kPa", activation = 0.8, measure = "cauchy")",
         R"(peak_stress = "50 kPa", activation = 0.8, measure = "cauchy", across = 0.4, family = "second")",
@@ -43,7 +46,8 @@ const std::map<std::string, std::vector<std::string>>& more_parameters() {
         R"(c = "2 kPa", bff = 8, bss = 6, bnn = 3, bffss = 2, bssnn = -1, bnnff = 1.5, bfs = 5, bsn = 3, bfn = 2)"}},
       {"hill_active",
        {R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "flexodeal_smooth")",
-        R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "degroote")"}},
+        R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "degroote")",
+        R"(peak_stress = "200 kPa", max_strain_rate = "5 1/s", activation = 0.6, curve = "degroote", family = "second")"}},
       {"hill_passive", {R"(peak_stress = "200 kPa", curve = "degroote")"}},
       {"veronda_westmann", {R"(c1 = "2 kPa", c2 = 3)"}},
       {"compressible_neo_hookean", {R"(mu = "10 kPa", lambda = "40 kPa")"}},
@@ -269,9 +273,82 @@ TEST(Registry, ListsEveryLawWithFormulaSourceAndDocumentedKeys) {
       EXPECT_FALSE(p.tissue.empty());
       EXPECT_FALSE(p.source.empty());
     }
+    EXPECT_NE(law.published.empty(), law.unpublished.empty()) << "a traceable set, or why there is none";
   }
   EXPECT_EQ(seen.count("yeoh"), 1u);
   EXPECT_EQ(seen.count("simo"), 1u);
+}
+
+/// Laws that are no terms; the others read theirs in every test above.
+TEST(Registry, ReadsThePublishedSetsOfVolumesAndFluids) {
+  const auto read = [](const auto& entry) {
+    for (const ParameterSet& set : entry.info.published) {
+      Config config("law = { name = 0, " + set.parameters + " }", entry.info.name);
+      Section law = config.root().section("law");
+      law.leave("name");
+      EXPECT_NE(entry.read(law), nullptr);
+      EXPECT_NO_THROW(config.finish()) << entry.info.name << " " << set.parameters;
+    }
+  };
+  for (const VolumetricEntry& entry : volumetric_entries()) read(entry);
+  for (const FluidEntry& entry : fluid_entries()) read(entry);
+}
+
+std::string warnings(const std::string& law, const std::string& parameters) {
+  ::testing::internal::CaptureStderr();
+  material_of(law, parameters);
+  return ::testing::internal::GetCapturedStderr();
+}
+
+/// Allowed numbers that a law warns of, and a part of what it says.
+struct Warned {
+  const char *law, *parameters, *words;
+};
+constexpr Warned warned[] = {
+    {"active_stress", R"(peak_stress = "1 kPa", activation = 1, measure = "pk2", along = 0.2, across = 0.5)",
+     "t.across: "},
+    {"arruda_boyce", R"(mu = "1 kPa", locking_stretch = 1.1)", "t.locking_stretch: "},
+    {"cann_fibre", R"(w1 = "1 kPa", w2 = "1 kPa", b = 500)", "t.b: its exponential overflows"},
+    {"compressible_neo_hookean", R"(mu = "1 kPa", lambda = "100 kPa")", "t.lambda: Poisson's ratio"},
+    {"demiray", R"(a = "1 kPa", b = 2000)", "t.b: its exponential overflows"},
+    {"fung", R"(c = "1 kPa", bff = 2000, bss = 2, bnn = 2, bfs = 1, bsn = 1, bfn = 1)", "t.bff: its exponential"},
+    {"gent", R"(mu = "1 kPa", limit = 0.01)", "t.limit: "},
+    {"goh", R"(k1 = "1 kPa", k2 = 500)",
+     "t.k2: its exponential overflows before a stretch of 1.5, at a strain of 1.19"},
+    {"goh", R"(k1 = "1 kPa", k2 = 1, kappa = 0.3333)", "t.kappa: 1/3 makes the fibres isotropic"},
+    {"goh", R"(k1 = "1 kPa", k2 = 1, kappa = 0.1, switch = "I4")", "t.switch: with I4 and dispersion the stress jumps"},
+    {"goh", R"(k1 = "1 kPa", k2 = 1, switch = "none")", "t.switch: with none, fibres push"},
+    {"guccione", R"(c = "1 kPa", bf = 2000, bt = 2, bfs = 4)", "t.bf: its exponential overflows"},
+    {"holmes_mow", R"(mu = "1 kPa", lambda = "100 kPa", beta = 1)", "t.lambda: Poisson's ratio"},
+    {"holzapfel_ogden", R"(a = "1 kPa", b = 8, af = "1 kPa", bf = 16, as = "1 kPa", bs = 500, afs = "1 kPa", bfs = 11)",
+     "t.bs: its exponential"},
+    {"mooney_rivlin", R"(c1 = "2 kPa", c2 = "-1 kPa")", "t.c2: a negative coefficient"},
+    {"ogden", R"(mu = "1 kPa", alpha = [1.3])", "t.alpha: the term with alpha = 1.3 is not rank-one convex"},
+    {"st_venant_kirchhoff", R"(mu = "1 kPa", lambda = "100 kPa")", "t.lambda: Poisson's ratio"},
+    {"veronda_westmann", R"(c1 = "1 kPa", c2 = 0.1)", "t.c2: so small, the energy turns negative"},
+    {"weiss_fibre", R"(c3 = "1 MPa", c4 = 50, c5 = "1 MPa", lambda_straight = 1.05)", "t.c5: "},
+    {"yeoh", R"(c1 = "1 kPa", c2 = "-1 kPa")", "t.c2: with a negative c2"},
+};
+
+TEST(EveryLaw, SaysWhatIsAllowedButSeldomMeant) {
+  std::set<std::string> exercised, advising;
+  for (const auto& [law, parameters, words] : warned) {
+    const std::string said = warnings(law, parameters);
+    EXPECT_NE(said.find(words), std::string::npos) << law << " { " << parameters << " } says: " << said;
+    exercised.insert(law);
+  }
+  for (const LawInfo& law : laws())
+    if (law.advises) advising.insert(law.name);
+  EXPECT_EQ(exercised, advising);
+}
+
+TEST(EveryLaw, IsSilentAboutPublishedNumbersButOgdensRubber) {
+  for_each_case([](const Case& c) {
+    if (!c.published) return;
+    const bool rubber = c.law.name == "ogden" && c.parameters.find("630") != std::string::npos;
+    EXPECT_EQ(warnings(c.law.name, c.parameters).find("rank-one") != std::string::npos, rubber);
+    if (!rubber) EXPECT_EQ(warnings(c.law.name, c.parameters), "");
+  });
 }
 
 TEST(EveryVolumetricLaw, HasItsDerivativesAndRestsAtOne) {
