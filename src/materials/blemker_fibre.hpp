@@ -21,7 +21,7 @@ struct BlemkerPassive {
   inline static const std::array published{
       ParameterSet{"skeletal muscle",
                    R"(peak_stress = "300 kPa", optimal_stretch = 1.4, p1 = 0.05, p2 = 6.6, lambda_straight = 1.4)",
-                   "FEBio test decks mu02 and mu03, after Blemker et al. 2005"}};
+                   "FEBio test deck mu02, after Blemker et al. 2005"}};
 
   double peak_stress = 0, optimal_stretch = 1, p1 = 0, p2 = 0, lambda_straight = 0;
 
@@ -69,7 +69,7 @@ struct BlemkerActive {
   static constexpr auto pulls_at_rest = "an active fibre pulls at any length";
   inline static const std::array published{
       ParameterSet{"skeletal muscle", R"(peak_stress = "300 kPa", optimal_stretch = 1.4, activation = 1)",
-                   "FEBio test decks mu02 and mu03, after Blemker et al. 2005"}};
+                   "FEBio test deck mu02, after Blemker et al. 2005"}};
   static constexpr Piecewise<3, 2> curve{.breaks = {0.4, 0.6, 1.4, 1.6},
                                          .coefficients = {{{0, 0, 9}, {0.36, 3.2, -4}, {0.36, -3.6, 9}}}};
 

@@ -2,7 +2,6 @@
 /// 5, 309. Shear modulus at rest a.
 #pragma once
 
-#include "materials/overflow.hpp"
 #include "materials/registry.hpp"
 
 namespace titin {
@@ -24,8 +23,10 @@ struct Demiray {
     s.read("b", b, {.range = positive, .required = true, .doc = "how fast it stiffens"});
   }
   std::vector<Advice> advice() const {
+    constexpr double largest = 709;                            // ln of the largest double
     constexpr double at_half_again = 1.5 * 1.5 + 2 / 1.5 - 3;  // I1 - 3 at a stretch of 1.5
-    return advice_of_exponent("b", b / at_half_again, at_half_again);
+    if (b * at_half_again <= largest) return {};
+    return {{"b", "its exponential overflows before a stretch of 1.5: steps that go there fail"}};
   }
   template <class T>
   T energy(const Invariants<T>& x) const {

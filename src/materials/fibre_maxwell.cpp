@@ -60,7 +60,7 @@ FibreMaxwellResponse::Tension FibreMaxwellResponse::pull(double log_stretch) con
 void FibreMaxwellResponse::evaluate(const PointInput& in, HistoryRows history, Mat3* P, Mat9* A, double* W) const {
   const bool first = options_.family == FibreFamily::first;
   for (int p = 0; p < in.n; ++p) {
-    const Vec3& a = first || !in.second_fibre ? in.fibre[p] : in.second_fibre[p];
+    const Vec3& a = first ? in.fibre[p] : in.second_fibre[p];
     const Vec3 f = multiply(in.F[p], a);
     double I4 = dot(f, f);
     if (options_.measure == FibreMeasure::isochoric) I4 *= std::pow(determinant(in.F[p]), -2.0 / 3);

@@ -34,7 +34,8 @@ void ElasticResponse::evaluate(const PointInput& in, HistoryRows, Mat3* P, Mat9*
   material_->term_energy(0, in, W);
 }
 
-MemoryMaterial::MemoryMaterial(SumMaterial::Parts parts) : elastic_(parts), plain_(only(parts, true)) {
+MemoryMaterial::MemoryMaterial(SumMaterial::Parts parts)
+    : elastic_(parts), plain_(only(parts, true)), fibres_(parts.fibres) {
   infos_ = plain_.terms();
   for (const WeightedTerm& term : parts.terms) {
     if (is_plain(term)) continue;
@@ -46,7 +47,9 @@ MemoryMaterial::MemoryMaterial(SumMaterial::Parts parts) : elastic_(parts), plai
 }
 
 struct MemoryMaterial::Rows {
-  Rows(const MemoryMaterial& material, const PointInput& in) : stride(material.history_size_) {
+  Rows(const MemoryMaterial& material, const PointInput& in) : points(in), stride(material.history_size_) {
+    points.fibre = directions(in.fibre, material.fibres_.first, own[0]);
+    points.second_fibre = directions(in.second_fibre, material.fibres_.second, own[1]);
     if (!in.new_history) scratch.resize(in.n * stride);
     old = in.history;
     now = in.new_history ? in.new_history : scratch.data();
@@ -56,18 +59,27 @@ struct MemoryMaterial::Rows {
       PointInput rest;
       rest.n = 1;
       rest.F = rest.F_old = &identity;
-      rest.fibre = in.fibre ? in.fibre + p : nullptr;
-      rest.second_fibre = in.second_fibre ? in.second_fibre + p : nullptr;
+      rest.fibre = points.fibre + p;
+      rest.second_fibre = points.second_fibre + p;
       material.start_history(rest, &at_rest[p * stride]);
     }
     old = at_rest.data();
   }
   HistoryRows of(const Remembering& term) const { return {old + term.at, now + term.at, stride}; }
 
+  PointInput points;
   int stride;
   const double* old;
   double* now;
   std::vector<double> scratch, at_rest;
+
+ private:
+  const Vec3* directions(const Vec3* given, const Vec3& materials, std::vector<Vec3>& list) const {
+    if (given) return given;
+    list.assign(points.n, materials);
+    return list.data();
+  }
+  std::vector<Vec3> own[2];
 };
 
 const MemoryMaterial::Remembering* MemoryMaterial::remembering(int term) const {
@@ -82,7 +94,7 @@ void MemoryMaterial::stress(const PointInput& in, Mat3* P, Mat9* A) const {
   std::vector<Mat9> A_term(A ? in.n : 0);
   std::vector<double> W(in.n);
   for (const Remembering& term : remembering_) {
-    term.response->evaluate(in, rows.of(term), P_term.data(), A ? A_term.data() : nullptr, W.data());
+    term.response->evaluate(rows.points, rows.of(term), P_term.data(), A ? A_term.data() : nullptr, W.data());
     for (int p = 0; p < in.n; ++p) {
       for (int i = 0; i < 9; ++i) P[p][i] += term.weight * P_term[p][i];
       for (int i = 0; i < 81 && A; ++i) A[p][i] += term.weight * A_term[p][i];
@@ -95,7 +107,7 @@ void MemoryMaterial::term_stress(int term, const PointInput& in, Mat3* P) const 
   if (!memory) return plain_.term_stress(term, in, P);
   const Rows rows(*this, in);
   std::vector<double> W(in.n);
-  memory->response->evaluate(in, rows.of(*memory), P, nullptr, W.data());
+  memory->response->evaluate(rows.points, rows.of(*memory), P, nullptr, W.data());
   for (int p = 0; p < in.n; ++p)
     for (double& stress : P[p]) stress *= memory->weight;
 }
@@ -105,7 +117,7 @@ void MemoryMaterial::term_energy(int term, const PointInput& in, double* W) cons
   if (!memory) return plain_.term_energy(term, in, W);
   const Rows rows(*this, in);
   std::vector<Mat3> P(in.n);
-  memory->response->evaluate(in, rows.of(*memory), P.data(), nullptr, W);
+  memory->response->evaluate(rows.points, rows.of(*memory), P.data(), nullptr, W);
   for (int p = 0; p < in.n; ++p) W[p] *= memory->weight;
 }
 

@@ -41,11 +41,12 @@ class MemoryMaterial final : public Material {
     double weight;
     int at;  // column of its first history
   };
-  /// Rows for one evaluation: the caller's, or at rest, or scratch.
+  /// What one evaluation works on: the caller's rows, or at rest, or scratch; directions of the points in any case.
   struct Rows;
   const Remembering* remembering(int term) const;  // null for a plain term
 
   SumMaterial elastic_, plain_;  // all terms without their memory; those that have none
+  FibrePair<double> fibres_;     // where the caller gives none
   std::vector<TermInfo> infos_;  // plain ones first
   std::vector<Remembering> remembering_;
   int history_size_ = 0;

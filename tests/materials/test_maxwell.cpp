@@ -197,6 +197,17 @@ TEST(FibreBranch, RelaxesAHeldStretchAsIntegrated) {
   }
 }
 
+/// Points without directions of their own have the material's.
+TEST(FibreBranch, RunsAlongTheMaterialsFibres) {
+  const MaterialPointer m = material_of("goh", fibre_branch);
+  Point own{.F = along_fibre(1.2), .dt = 0.5};
+  PointInput none = own.input();
+  none.fibre = nullptr;
+  Mat3 P;
+  m->stress(none, &P, nullptr);
+  EXPECT_LT(distance(P, titin::testing::stress(*m, own)), 1e-12);
+}
+
 TEST(FibreBranch, TangentIsExactAndStepsMayBeHuge) {
   for (const char* measure : {"", "fibre_invariants = \"full\"\n"})
     for (double dt : {1e-6, 0.5, 1e6}) {
