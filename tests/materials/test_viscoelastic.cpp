@@ -138,6 +138,36 @@ TEST(Viscoelastic, TangentIsExactWithinAStep) {
   }
 }
 
+/// One step from rest with times about 1 s: stress over the elastic one, from dt/tau = 1e-6 to 1e6.
+TEST(EveryMemory, HoldsFromTinyToHugeSteps) {
+  struct Wrapped {
+    const char* wrapper;
+    double least, most;  // of the ratio
+  };
+  const Wrapped wrapped[] = {{R"(prony = { strength = [0.5], time = "1 s" })", 1, 1.5},
+                             {R"(prony = { reference = "instantaneous", strength = [0.5], time = "1 s" })", 0.5, 1},
+                             {R"(spectrum = { c = 0.2, shortest = "0.1 s", longest = "10 s" })", 0.5, 1},
+                             {R"(fractional = { order = 0.2, modulus = 0.5, window = "1 s" })", 1, 100},
+                             {R"(maxwell = { viscosity = "10 Pa s" })", 0, 1},
+                             {R"(damage = { law = "exponential", scale = "3 J/m^3", time = "1 s" })", 0.01, 1}};
+  const Mat3 F{1.15, 0.2, 0.05, 0.0, 0.9, 0.1, 0.05, 0.1, 1.05};
+  const MaterialPointer elastic = material_of("neo_hookean", "mu = \"10 Pa\"");
+  const double P_elastic = size_of(titin::testing::stress(*elastic, {.F = F}));
+  for (const auto& [wrapper, least, most] : wrapped) {
+    double last = 0;
+    for (double dt = 1e6; dt > 0.5e-6; dt /= 10) {
+      SCOPED_TRACE(fmt::format("{} dt {}", wrapper, dt));
+      RememberingPoint point(material_of("neo_hookean", std::string("mu = \"10 Pa\", ") + wrapper));
+      const double ratio = size_of(point.stress(F, dt)) / P_elastic;
+      EXPECT_GE(ratio, least - round_off);
+      EXPECT_LE(ratio, most + round_off);
+      EXPECT_GE(ratio, last * (1 - round_off));  // the shorter the step, the stiffer
+      EXPECT_GE(point.dissipated(), 0);
+      last = ratio;
+    }
+  }
+}
+
 TEST(Viscoelastic, WorkIsStoredOrDissipatedAndDissipationOnlyGrows) {
   RememberingPoint point(material_of("neo_hookean", "mu = \"10 Pa\", " + prony));
   const int steps = 2000;
