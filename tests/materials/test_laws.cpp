@@ -140,6 +140,15 @@ TEST(Hencky, IsTheLimitOfOgdenPowersAlsoAtEqualStretches) {
   }
 }
 
+TEST(BlemkerShear, DoesNotSeeTheVolume) {
+  const char* moduli = R"(g1 = "1 kPa", g2 = "2 kPa")";
+  const MaterialPointer split = material_of("blemker_shear", moduli);
+  const MaterialPointer full = material_of("blemker_shear", moduli, "fibre_invariants = \"full\"\n");
+  const Mat3 F = scaled(1.3, general_F), P = stress(*split, {.F = F});
+  EXPECT_LT(distance(stress(*full, {.F = F}), P), round_off * size_of(P));
+  EXPECT_LT(size_of(stress(*full, {.F = scaled(1.3, identity)})), 1e-9);
+}
+
 class TrainedWeights : public ::testing::Test {
  protected:
   /// A file of this content, and the key that names it.
