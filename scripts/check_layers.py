@@ -42,7 +42,7 @@ NEVER = {
 
 # The single place of a library.
 ONLY_HERE = {
-    "mpi.h": ["src/base/parallel.hpp"],
+    "mpi.h": ["src/base/exchange.hpp", "src/base/parallel.hpp"],
     "udunits2": ["src/base/units.cpp"],
 }
 # Calls of raw MPI anywhere but in base.

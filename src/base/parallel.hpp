@@ -1,4 +1,5 @@
-/// The only place that calls MPI directly. All functions are collective on `comm` unless they say otherwise.
+/// With base/exchange the only place that calls MPI directly. All functions are collective on `comm` unless they say
+/// otherwise.
 #pragma once
 
 #include <mpi.h>

@@ -23,6 +23,8 @@ class CellTables {
   double weight(int cell, int q) const { return cells_[cell].weight[q]; }                       ///< [m^3]
   const double* mode(int cell, int q) const { return &cells_[cell].mode[q * modes_]; }          ///< psi_l [modes]
   const double* mode_mass_inverse(int cell) const { return cells_[cell].mass_inverse.data(); }  ///< (int psi psi^T)^-1
+  /// dxi_M / dX_J at [3 M + J] [1/m]
+  const double* inverse_jacobian(int cell, int q) const { return &cells_[cell].inverse_jacobian[9 * q]; }
   /// Gradients of all shape functions in the reference configuration: G[q][J][a], padded [1/m].
   void gradients(int cell, double* G) const;
 

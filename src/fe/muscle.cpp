@@ -85,7 +85,7 @@ std::string Muscle::predict_from(const mfem::Vector& start, Step& step) {
   prescribed = start;
   system_.constraints().set_values(step.time, prescribed);
   for (int dof : system_.constraints().dofs()) lift(dof) = prescribed(dof) - start(dof);
-  system_.tangent_with_lift(start, system_.matrix(), lift, R);
+  system_.tangent_with_lift(start, lift, R);
   LinearSolver& linear = newton().linear();
   linear.matrix_changed();
   change = 0.0;

@@ -14,9 +14,6 @@ namespace {
 /// Forces below this part of (largest stiffness x size of the body) are round-off: displacements carry 16 digits.
 constexpr double round_off = 1e-15;
 
-/// PETSc keeps entries of constrained rows and columns out when their index is negative.
-constexpr PetscInt leave_out = -1;
-
 }  // namespace
 
 MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mfem::ParFiniteElementSpace& space)
@@ -37,6 +34,7 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
     cell_dofs_.insert(cell_dofs_.end(), dofs.begin(), dofs.end());
     materials_.push_back(config.materials.at(config.material_of_region.at(mesh.mesh->GetAttribute(cell))).get());
   }
+  matrices_ = CellMatrices::create(space_, tables_, symmetric_materials());
   start_history();
   for (mfem::Vector* v : {&step_.u_old, &step_.v_old, &forces_, &body_forces_, &load_forces_}) {
     v->SetSize(space.GetTrueVSize());
@@ -44,11 +42,65 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
   }
 }
 
-MuscleSystem::~MuscleSystem() { MatDestroy(&K_); }
+Assembly& MuscleSystem::assembly() {
+  if (assembly_) return *assembly_;
+  assembly_ = std::make_unique<Assembly>(space_, constrained_dofs());
+  check(MatSetOption(assembly_->matrix(), MAT_SYMMETRIC,
+                     symmetric_materials() && !loads_.has_follower() ? PETSC_TRUE : PETSC_FALSE));
+  check(MatSetOption(assembly_->matrix(), MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  return *assembly_;
+}
 
-Mat MuscleSystem::matrix() {
-  if (!K_) create_matrix();
-  return K_;
+std::vector<char> MuscleSystem::constrained_dofs() const {
+  std::vector<char> constrained(space_.GetVSize());
+  for (int dof = 0; dof < space_.GetVSize(); ++dof) constrained[dof] = constraints_.is_constrained_local(dof);
+  return constrained;
+}
+
+std::unique_ptr<TangentAction> MuscleSystem::make_action(Precision precision) const {
+  return TangentAction::create(space_, tables_, constrained_dofs(), symmetric_materials(), precision);
+}
+
+void MuscleSystem::set_action(const mfem::Vector& u, TangentAction& action) {
+  Timers::Scope timer("tangent");
+  const LocalVectors local(*this, u, step_.u_old);
+  action.set([&](int cell) { return tangent_points(cell, local); });
+}
+
+TangentPoints MuscleSystem::tangent_points(int cell, const LocalVectors& local) {
+  gather(cell, local);
+  kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data());
+  return kernel_.tangent_points(cell, material(cell), point_input(cell), inertia(cell));
+}
+
+/// Calls take(cell, K) with each cell's tangent, loads left out.
+void MuscleSystem::form_cells(const LocalVectors& local, const std::function<void(int, double*)>& take) {
+  if (!matrices_) return form_cells_singly(local, take);
+  const int cells = space_.GetNE();
+  for (int first = 0; first < cells; first += matrices_->cells_at_once()) {
+    const int count = std::min(matrices_->cells_at_once(), cells - first);
+    matrices_->form(first, count, [&](int cell) { return tangent_points(cell, local); });
+    for (int i = 0; i < count; ++i) take(first + i, matrices_->matrix(i));
+  }
+}
+
+void MuscleSystem::form_cells_singly(const LocalVectors& local, const std::function<void(int, double*)>& take) {
+  const int n = 3 * tables_.nodes();
+  std::vector<double> K(n * n);
+  for (int cell = 0; cell < space_.GetNE(); ++cell) {
+    std::fill(K.begin(), K.end(), 0.0);
+    gather(cell, local);
+    kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data());
+    kernel_.add_tangent(cell, material(cell), point_input(cell), K.data());
+    if (moving()) add_inertia_tangent(cell, K.data());
+    take(cell, K.data());
+  }
+}
+
+bool MuscleSystem::symmetric_materials() const {
+  bool all = true;
+  for (const auto& [name, material] : config_.materials) all = all && material->symmetric_tangent(config_.rate());
+  return all;
 }
 
 void MuscleSystem::start_history() {
@@ -65,43 +117,6 @@ void MuscleSystem::start_history() {
       material(cell).start_history(rest, history_.now(cell) + q * row_size[cell]);
   }
   history_.commit();
-}
-
-void MuscleSystem::create_matrix() {
-  const int n = 3 * tables_.nodes();
-  const std::size_t entries = std::size_t(space_.GetNE()) * n * n + constraints_.dofs().Size();
-  std::vector<PetscInt> rows, columns;
-  rows.reserve(entries);
-  columns.reserve(entries);
-  std::vector<PetscInt> index(n);
-  for (int cell = 0; cell < space_.GetNE(); ++cell) {
-    for (int c = 0; c < n; ++c) {
-      const int dof = cell_dofs_[cell * n + c];
-      index[c] =
-          constraints_.is_constrained_local(dof) ? leave_out : static_cast<PetscInt>(space_.GetGlobalTDofNumber(dof));
-    }
-    for (int c = 0; c < n; ++c)
-      for (int d = 0; d < n; ++d) {
-        rows.push_back(index[c]);
-        columns.push_back(index[d]);
-      }
-  }
-  const auto first = static_cast<PetscInt>(space_.GetMyTDofOffset());
-  for (int dof : constraints_.dofs()) {
-    rows.push_back(first + dof);
-    columns.push_back(first + dof);
-  }
-  values_.assign(entries, 1.0);  // the last ones stay: unit diagonal of constrained dofs
-  check(MatCreate(PETSC_COMM_WORLD, &K_));
-  check(MatSetSizes(K_, size(), size(), PETSC_DETERMINE, PETSC_DETERMINE));
-  check(MatSetType(K_, MATAIJ));
-  check(MatSetBlockSize(K_, 3));
-  check(MatSetPreallocationCOO(K_, entries, rows.data(), columns.data()));
-  bool symmetric = !loads_.has_follower();
-  for (const auto& [name, material] : config_.materials)
-    symmetric = symmetric && material->symmetric_tangent(config_.rate());
-  check(MatSetOption(K_, MAT_SYMMETRIC, symmetric ? PETSC_TRUE : PETSC_FALSE));
-  check(MatSetOption(K_, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
 }
 
 MuscleSystem::LocalVectors::LocalVectors(MuscleSystem& system, const mfem::Vector& u_true,
@@ -225,7 +240,7 @@ void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& accelerati
   }
 }
 
-void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* lift, mfem::Vector* R) {
+void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfem::Vector* R) {
   Timers::Scope timer("tangent");
   const int n = 3 * tables_.nodes();
   const LocalVectors local(*this, u, step_.u_old);
@@ -238,17 +253,16 @@ void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* li
   }
   double stiffest = 0;
   std::vector<double> unused(n);
-  for (int cell = 0; cell < space_.GetNE(); ++cell) {
-    double* block = &values_[std::size_t(cell) * n * n];
-    std::fill_n(block, n * n, 0.0);
-    gather(cell, local);
-    kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data());
-    kernel_.add_tangent(cell, material(cell), point_input(cell), block);
-    for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(block[c * n + c]));
-    if (loads_.on_cell(cell)) loads_.add(cell, step_.time, u_cell_.data(), unused.data(), block);
-    if (moving()) add_inertia_tangent(cell, block);
-    if (lift) add_lift(cell, block, &local_lift, &local_R);
-  }
+  assembly().begin();
+  form_cells(local, [&](int cell, double* K) {
+    for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(K[c * n + c]));
+    if (loads_.on_cell(cell)) {
+      gather(cell, local);
+      loads_.add(cell, step_.time, u_cell_.data(), unused.data(), K);
+    }
+    if (lift) add_lift(cell, K, &local_lift, &local_R);
+    assembly_->add(cell, K);
+  });
   if (lift) {
     mfem::Vector change = to_true(local_R);
     for (int dof : constraints_.dofs()) change(dof) = 0;
@@ -258,8 +272,7 @@ void MuscleSystem::assemble(const mfem::Vector& u, Mat K, const mfem::Vector* li
   space_.GetParMesh()->GetBoundingBox(lower, upper);
   upper -= lower;
   force_floor_ = round_off * titin::max(stiffest) * upper.Normlinf() * std::sqrt(double(space_.GlobalTrueVSize()));
-  Timers::Scope insertion("insert matrix");
-  check(MatSetValuesCOO(K, values_.data(), INSERT_VALUES));
+  assembly_->end();
 }
 
 /// Mass / dt^2: the derivative of backward Euler's inertia.

@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "fe/assembly.hpp"
+#include "fe/cell_matrices.hpp"
 #include "fe/cell_tables.hpp"
 #include "fe/loads.hpp"
 #include "fe/muscle_config.hpp"
+#include "fe/tangent_action.hpp"
 #include "fe/three_field.hpp"
 #include "mesh/history.hpp"
 #include "solve/newton.hpp"
@@ -27,22 +30,25 @@ struct StepState {
 class MuscleSystem : public NonlinearSystem {
  public:
   MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mfem::ParFiniteElementSpace& space);
-  ~MuscleSystem();
 
   // NonlinearSystem
   int size() const override { return space_.GetTrueVSize(); }
   bool residual(const mfem::Vector& u, mfem::Vector& R) override;
-  void tangent(const mfem::Vector& u, Mat K) override { assemble(u, K, nullptr, nullptr); }
+  void tangent(const mfem::Vector& u, Mat) override { assemble(u, nullptr, nullptr); }
   double force_scale() const override { return force_scale_; }
   std::string domain_error() const override { return domain_error_; }
 
   /// Tangent at u, and R += K_free,constrained * lift: what a change `lift` of the prescribed values does to the free
   /// residuals.
-  void tangent_with_lift(const mfem::Vector& u, Mat K, const mfem::Vector& lift, mfem::Vector& R) {
-    assemble(u, K, &lift, &R);
-  }
+  void tangent_with_lift(const mfem::Vector& u, const mfem::Vector& lift, mfem::Vector& R) { assemble(u, &lift, &R); }
 
-  Mat matrix();  ///< preallocated, when first asked for; symmetric if it says so. Collective
+  /// Made when first asked for, then the same for the whole run; symmetric if it says so. Collective
+  Mat matrix() { return assembly().matrix(); }
+  Assembly& assembly();
+  /// The tangent without its matrix, for hexahedra; set_action() gives it values. It leaves out what following loads
+  /// add. Null where there is no kernel for the order and quadrature. Collective.
+  std::unique_ptr<TangentAction> make_action(Precision precision) const;
+  void set_action(const mfem::Vector& u, TangentAction& action);  ///< tangent at u, of the present step
   StepState& step() { return step_; }
   const Constraints& constraints() const { return constraints_; }
   /// Forces at all dofs at the last residual(): reactions where they are constrained [N].
@@ -80,11 +86,16 @@ class MuscleSystem : public NonlinearSystem {
   bool add_cell_forces(int cell, const LocalVectors& local, const mfem::Vector& acceleration, LocalForces& forces);
   void gather(int cell, const LocalVectors& local);
   void gather(int cell, const mfem::Vector& local, double* values) const;
-  void assemble(const mfem::Vector& u, Mat K, const mfem::Vector* lift, mfem::Vector* R);
-  void create_matrix();
+  void assemble(const mfem::Vector& u, const mfem::Vector* lift, mfem::Vector* R);
+  bool symmetric_materials() const;
+  std::vector<char> constrained_dofs() const;
   void start_history();
   void add_inertia_and_body(int cell, const mfem::Vector& acceleration, double* inertia, double* body) const;
   void add_inertia_tangent(int cell, double* K) const;
+  TangentPoints tangent_points(int cell, const LocalVectors& local);
+  void form_cells(const LocalVectors& local, const std::function<void(int cell, double* K)>& take);
+  void form_cells_singly(const LocalVectors& local, const std::function<void(int cell, double* K)>& take);
+  double inertia(int cell) const { return moving() ? material(cell).density() / (step_.dt * step_.dt) : 0.0; }
   void add_lift(int cell, const double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const;
   void set_domain_error(int cell, int point);
   mfem::Vector to_true(const mfem::Vector& local) const;
@@ -99,8 +110,8 @@ class MuscleSystem : public NonlinearSystem {
   std::vector<int> cell_dofs_;              // [cell][3][nodes], local dofs
   mutable History history_{{}, 0};          // written as stresses are evaluated
   StepState step_;
-  Mat K_ = nullptr;             // large: not there before the first step, so that checking a scene is cheap
-  std::vector<double> values_;  // [cell][3 nodes][3 nodes], then one for each constrained dof
+  std::unique_ptr<CellMatrices> matrices_;  // null where cells are formed singly
+  std::unique_ptr<Assembly> assembly_;      // large: not there before the first step, so that checking a scene is cheap
   std::vector<double> u_cell_, u_old_cell_;
   mfem::Vector forces_, body_forces_, load_forces_;
   double force_scale_ = 0, force_floor_ = 0;

@@ -70,7 +70,9 @@ ThreeField::ThreeField(const CellTables& tables)
       J_(tables.points()),
       D_(tables.points()),
       p_(tables.points()),
-      dU_(tables.points()) {}
+      dU_(tables.points()),
+      factor_(tables.points()),
+      S_(tables.modes() * tables.modes()) {}
 
 bool ThreeField::deform(int cell, const Material& material, const double* u, const double* u_old) {
   const int nodes = tables_.nodes(), padded = tables_.padded(), points = tables_.points();
@@ -149,6 +151,13 @@ void ThreeField::set_total_moduli(int cell, const Material& material, const Poin
   }
 }
 
+TangentPoints ThreeField::tangent_points(int cell, const Material& material, PointInput in, double inertia) {
+  material.stress(points(in), P_.data(), A_.data());
+  for (int q = 0; q < tables_.points(); ++q) factor_[q] = p_[q] / J_[q];
+  set_mode_stiffness(cell, material, S_.data());
+  return {A_.data(), cofactor_.data(), factor_.data(), S_.data(), inertia};
+}
+
 void ThreeField::add_block(int i, int k, double* K) {
   const int nodes = tables_.nodes(), padded = tables_.padded(), points = tables_.points();
   for (int q = 0; q < points; ++q)
@@ -182,13 +191,12 @@ void ThreeField::add_tangent(int cell, const Material& material, PointInput in, 
 /// K += B^T S B with S = M^-1 [int U''(D) psi psi^T] M^-1.
 void ThreeField::add_volumetric_stiffness(int cell, const Material& material, double* K) {
   const int nodes = tables_.nodes(), padded = tables_.padded(), modes = tables_.modes(), n = 3 * nodes;
-  mfem::DenseMatrix B(n, modes), C(modes), S(modes), mass_inverse(modes), SB(n, modes);
+  mfem::DenseMatrix B(n, modes), S(modes), SB(n, modes);
   B = 0.0;
-  C = 0.0;
-  std::copy_n(tables_.mode_mass_inverse(cell), modes * modes, mass_inverse.GetData());
+  set_mode_stiffness(cell, material, S.GetData());
   std::vector<double> row(n);
   for (int q = 0; q < tables_.points(); ++q) {
-    const double w = tables_.weight(cell, q), stiffness = w * material.volumetric(D_[q]).d2U;
+    const double w = tables_.weight(cell, q);
     const double* psi = tables_.mode(cell, q);
     for (int i = 0; i < 3; ++i)
       for (int a = 0; a < nodes; ++a) {
@@ -199,12 +207,8 @@ void ThreeField::add_volumetric_stiffness(int cell, const Material& material, do
     for (int l = 0; l < modes; ++l) {
       double* column = B.GetColumn(l);
       for (int c = 0; c < n; ++c) column[c] += psi[l] * row[c];
-      for (int m = 0; m < modes; ++m) C(l, m) += stiffness * psi[l] * psi[m];
     }
   }
-  mfem::DenseMatrix MC(modes);
-  mfem::Mult(mass_inverse, C, MC);
-  mfem::Mult(MC, mass_inverse, S);
   mfem::Mult(B, S, SB);
   for (int c = 0; c < n; ++c)
     for (int l = 0; l < modes; ++l) {
@@ -212,6 +216,21 @@ void ThreeField::add_volumetric_stiffness(int cell, const Material& material, do
       const double* column = B.GetColumn(l);
       for (int d = 0; d < n; ++d) K[c * n + d] += factor * column[d];
     }
+}
+
+void ThreeField::set_mode_stiffness(int cell, const Material& material, double* S) const {
+  const int modes = tables_.modes();
+  mfem::DenseMatrix C(modes), MC(modes), stiffness(S, modes, modes);
+  const mfem::DenseMatrix mass_inverse(const_cast<double*>(tables_.mode_mass_inverse(cell)), modes, modes);
+  C = 0.0;
+  for (int q = 0; q < tables_.points(); ++q) {
+    const double weighted = tables_.weight(cell, q) * material.volumetric(D_[q]).d2U;
+    const double* psi = tables_.mode(cell, q);
+    for (int l = 0; l < modes; ++l)
+      for (int m = 0; m < modes; ++m) C(l, m) += weighted * psi[l] * psi[m];
+  }
+  mfem::Mult(mass_inverse, C, MC);
+  mfem::Mult(MC, mass_inverse, stiffness);
 }
 
 void ThreeField::add_mass(int cell, double density, double* M) const {

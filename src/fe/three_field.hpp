@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fe/cell_tables.hpp"
+#include "fe/tangent_points.hpp"
 #include "materials/material.hpp"
 
 namespace titin {
@@ -32,6 +33,9 @@ class ThreeField {
   /// Adds the tangent to K [3 nodes][3 nodes], row-major.
   void add_tangent(int cell, const Material& material, PointInput in, double* K);
 
+  /// The same in parts, for kernels over several cells; good until the next call.
+  TangentPoints tangent_points(int cell, const Material& material, PointInput in, double inertia);
+
   /// Adds density * N_a N_b dV, one component: [nodes][nodes].
   void add_mass(int cell, double density, double* M) const;
 
@@ -47,6 +51,8 @@ class ThreeField {
  private:
   void project(int cell, const std::vector<double>& values, std::vector<double>& projected) const;
   void set_total_moduli(int cell, const Material& material, const PointInput& in);
+  /// M^-1 [int U''(D) psi psi^T dV] M^-1: the stiffness of the volume modes.
+  void set_mode_stiffness(int cell, const Material& material, double* S) const;
   void add_volumetric_stiffness(int cell, const Material& material, double* K);
   void add_block(int i, int k, double* K);
 
@@ -58,6 +64,7 @@ class ThreeField {
   std::vector<Mat9> A_;  // w (A_iso + p d cof F / dF)
   std::vector<Vec3> fibre_;
   std::vector<double> J_, D_, p_, dU_;
+  std::vector<double> factor_, S_;  // p / J; [modes][modes]
 };
 
 }  // namespace titin

@@ -39,9 +39,12 @@ struct Parts {
   NamedMesh named;
 };
 
-/// A block of 30 x 10 x 10 mm unless `text` says otherwise; `bend` moves the vertices so that cells are no bricks.
-inline Parts read_block(const std::string& text, bool bend = false) {
-  Config config("[mesh]\nbox = \"30, 10, 10 mm\"\ncells = [2, 2, 2]\n" + text, "test");
+using Overrides = std::vector<std::string>;
+
+/// A block of 30 x 10 x 10 mm unless `text` or `set` say otherwise; `bend` moves the vertices so that cells are no
+/// bricks.
+inline Parts read_block(const std::string& text, bool bend = false, const Overrides& set = {}) {
+  Config config("[mesh]\nbox = \"30, 10, 10 mm\"\ncells = [2, 2, 2]\n" + text, "test", set);
   Section root = config.root();
   Parts parts;
   Section mesh = root.section("mesh");
@@ -58,8 +61,8 @@ inline Parts read_block(const std::string& text, bool bend = false) {
   return parts;
 }
 
-inline std::unique_ptr<Muscle> make_block(const std::string& text, bool bend = false) {
-  Parts parts = read_block(text, bend);
+inline std::unique_ptr<Muscle> make_block(const std::string& text, bool bend = false, const Overrides& set = {}) {
+  Parts parts = read_block(text, bend, set);
   return std::make_unique<Muscle>(std::move(parts.named), std::move(parts.muscle));
 }
 
