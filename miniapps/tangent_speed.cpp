@@ -129,7 +129,7 @@ void make_action(benchmark::State& state) {
 void insert(benchmark::State& state) {
   Cube& cube = Cube::of(static_cast<int>(state.range(0)));
   Assembly& assembly = cube.system().assembly();
-  const int n = 3 * cube.system().tables().nodes();
+  const int n = cube.system().tables().values(0);
   const std::vector<double> K(n * n, 1.0);
   for (auto _ : state) {
     assembly.begin();

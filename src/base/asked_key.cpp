@@ -129,6 +129,10 @@ Numbers numbers(const AskedKey& asked, int size) {
     asked.complain("has " + count(all->size(), "number"), fmt::format("give {}", size));
     return std::nullopt;
   }
+  if (all->empty()) {
+    asked.complain("has no number", "give some, or drop the key");
+    return std::nullopt;
+  }
   if (!in_range(asked, *all)) return std::nullopt;
   return all;
 }

@@ -78,7 +78,7 @@ class Section {
   void read(std::string_view name, std::vector<double>& value, Key key);  ///< "0, 10, 30 mm", or [0, 1] if unit is ""
   void read(std::string_view name, std::array<double, 3>& value, Key key);
   void read(std::string_view name, int& value, Key key);
-  void read(std::string_view name, std::array<int, 3>& value, Key key);
+  void read(std::string_view name, std::vector<int>& value, Key key);
   void read(std::string_view name, bool& value, Key key);
   void read(std::string_view name, std::string& value, Key key);
   void read(std::string_view name, std::vector<std::string>& value, Key key);  ///< a list, or one string

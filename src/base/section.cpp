@@ -42,10 +42,11 @@ void Section::read(std::string_view name, int& value, Key key) {
   asked.keep_numbers({static_cast<double>(value)}, false);
 }
 
-void Section::read(std::string_view name, std::array<int, 3>& value, Key key) {
-  const AskedKey asked = ask(*scene_, path_, name, key, "3 whole numbers", fmt::format("{}", fmt::join(value, ", ")));
+void Section::read(std::string_view name, std::vector<int>& value, Key key) {
+  const std::string type = key.size < 0 ? "whole numbers" : fmt::format("{} whole numbers", key.size);
+  const AskedKey asked = ask(*scene_, path_, name, key, type, fmt::format("{}", fmt::join(value, ", ")));
   if (asked.node)
-    if (const auto x = whole_numbers(asked, 3); !x.empty()) std::copy_n(x.begin(), 3, value.begin());
+    if (auto x = whole_numbers(asked, key.size); !x.empty()) value = std::move(x);
   asked.keep_numbers({value.begin(), value.end()}, true);
 }
 

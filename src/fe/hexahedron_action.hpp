@@ -48,7 +48,7 @@ class HexahedronAction : public TangentAction {
 template <class Real, int n, int q>
 HexahedronAction<Real, n, q>::HexahedronAction(const mfem::ParFiniteElementSpace& space, const CellTables& tables,
                                                const std::vector<char>& constrained)
-    : tables_(tables), halo_(space), line_(line_tables<Real, n, q>(*space.GetFE(0), tables.rule())) {
+    : tables_(tables), halo_(space), line_(line_tables<Real, n, q>(*space.GetFE(0), tables.rule(0))) {
   order_cells(space);
   for (int dof = 0; dof < space.GetVSize(); ++dof)
     if (constrained[dof] && space.GetLocalTDofNumber(dof) >= 0) constrained_.push_back(space.GetLocalTDofNumber(dof));

@@ -8,12 +8,14 @@
 namespace titin {
 
 /// make.operator()<n, q>() for the n nodes and q points a direction of `tables`, where there is a kernel for them: Q1,
-/// Q2 and Q3 with as many points as nodes, Q2 with more points too. Null elsewhere.
+/// Q2 and Q3 with as many points as nodes, Q2 with more points too. Null elsewhere, and where cells are no hexahedra of
+/// three fields.
 template <class Result, class Make>
 std::unique_ptr<Result> hexahedron_kernel(const CellTables& tables, const Make& make) {
   std::unique_ptr<Result> kernel;
+  if (tables.geometry() != mfem::Geometry::CUBE || tables.modes(0) == 0) return kernel;
   const auto try_one = [&]<int n, int q>() {
-    if (tables.nodes() == n * n * n && tables.points() == q * q * q) kernel = make.template operator()<n, q>();
+    if (tables.nodes(0) == n * n * n && tables.points(0) == q * q * q) kernel = make.template operator()<n, q>();
   };
   try_one.template operator()<2, 2>();
   try_one.template operator()<3, 3>();

@@ -47,7 +47,7 @@ template <int n, int q, bool symmetric>
 HexahedronMatrices<n, q, symmetric>::HexahedronMatrices(const mfem::ParFiniteElementSpace& space,
                                                         const CellTables& tables)
     : filler_(tables),
-      line_(line_tables<double, n, q>(*space.GetFE(0), tables.rule())),
+      line_(line_tables<double, n, q>(*space.GetFE(0), tables.rule(0))),
       coupling_(modes * size),
       stiff_coupling_(modes * size),
       K_(std::size_t(lanes) * size * size) {

@@ -7,7 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "base/words.hpp"
-#include "fe/cell_tables.hpp"
+#include "fe/cell_element.hpp"
 #include "math/tensor.hpp"
 
 namespace titin {
@@ -47,7 +47,7 @@ Constraints::Constraints(const std::vector<BoundaryConfig>& boundaries, const Na
   boundary_dofs_.resize(boundaries.size());
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     const auto marker = mesh.boundary_marker(boundaries[b].on);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < mesh.mesh->Dimension(); ++i) {
       auto& dofs = boundary_dofs_[b][i];
       space.GetEssentialTrueDofs(marker, dofs, i);
       if (boundaries[b].prescribed[i])
@@ -70,40 +70,45 @@ void Constraints::set_values(double time, mfem::Vector& u) const {
   for (int i = 0; i < dofs_.Size(); ++i) u(dofs_[i]) = (*values_[i])(time);
 }
 
-FaceLoads::FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, const CellTables& tables,
+FaceLoads::FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, const CellElements& elements,
                      const mfem::ParFiniteElementSpace& space, int points)
-    : nodes_(tables.nodes()), faces_of_cell_(space.GetNE()) {
-  const auto& rule = mfem::IntRules.Get(mfem::Geometry::SQUARE, 2 * points - 1);
+    : dimension_(mesh.mesh->Dimension()), faces_of_cell_(space.GetNE()) {
   for (const auto& boundary : boundaries) {
     if (!boundary.loaded()) continue;
     has_follower_ = has_follower_ || !boundary.pressure.is_constant() || boundary.pressure(0) != 0;
     const auto marker = mesh.boundary_marker(boundary.on);
-    for (int i = 0; i < mesh.mesh->GetNBE(); ++i)
-      if (marker[mesh.mesh->GetBdrAttribute(i) - 1]) add_face(i, boundary, rule, *mesh.mesh, *space.GetFE(0));
+    for (int i = 0; i < mesh.mesh->GetNBE(); ++i) {
+      if (!marker[mesh.mesh->GetBdrAttribute(i) - 1]) continue;
+      auto* map = mesh.mesh->GetBdrFaceTransformations(i);
+      if (!map) continue;  // an inner surface: loads act on the outside only
+      const auto& rule =
+          elements.face_rule(map->GetGeometryType(), mesh.mesh->GetElementGeometry(map->Elem1No), points);
+      add_face(*map, boundary, rule, *space.GetFE(map->Elem1No), mesh.thickness);
+    }
   }
 }
 
-void FaceLoads::add_face(int boundary_face, const BoundaryConfig& load, const mfem::IntegrationRule& rule,
-                         mfem::ParMesh& mesh, const mfem::FiniteElement& element) {
-  auto* map = mesh.GetBdrFaceTransformations(boundary_face);
-  if (!map) return;  // an inner surface: loads act on the outside only
+void FaceLoads::add_face(mfem::FaceElementTransformations& map, const BoundaryConfig& load,
+                         const mfem::IntegrationRule& rule, const mfem::FiniteElement& element, double thickness) {
+  const int nodes = element.GetDof();
   Face face{&load, {}};
-  mfem::Vector shape(nodes_), normal(3);
-  mfem::DenseMatrix slope(nodes_, 3), gradient(nodes_, 3);
+  mfem::Vector shape(nodes), normal(dimension_);
+  mfem::DenseMatrix slope(nodes, dimension_), gradient(nodes, dimension_);
   for (int q = 0; q < rule.GetNPoints(); ++q) {
-    map->SetAllIntPoints(&rule.IntPoint(q));
-    const auto& in_cell = map->GetElement1IntPoint();
+    map.SetAllIntPoints(&rule.IntPoint(q));
+    const auto& in_cell = map.GetElement1IntPoint();
     element.CalcShape(in_cell, shape);
     element.CalcDShape(in_cell, slope);
-    mfem::Mult(slope, map->Elem1->InverseJacobian(), gradient);
-    mfem::CalcOrtho(map->Jacobian(), normal);  // outward of cell 1, as long as the area is large
-    normal *= rule.IntPoint(q).weight;
-    Point point{{shape.begin(), shape.end()}, std::vector<double>(3 * nodes_), {normal(0), normal(1), normal(2)}};
-    for (int J = 0; J < 3; ++J)
-      for (int a = 0; a < nodes_; ++a) point.G[J * nodes_ + a] = gradient(a, J);
+    mfem::Mult(slope, map.Elem1->InverseJacobian(), gradient);
+    mfem::CalcOrtho(map.Jacobian(), normal);  // outward of cell 1, as long as the area is large
+    Point point{{shape.begin(), shape.end()}, std::vector<double>(3 * nodes), {}};
+    for (int J = 0; J < dimension_; ++J) {
+      point.normal[J] = rule.IntPoint(q).weight * thickness * normal(J);
+      for (int a = 0; a < nodes; ++a) point.G[J * nodes + a] = gradient(a, J);
+    }
     face.points.push_back(std::move(point));
   }
-  faces_of_cell_[map->Elem1No].push_back(std::move(face));
+  faces_of_cell_[map.Elem1No].push_back(std::move(face));
 }
 
 void FaceLoads::add(int cell, double time, const double* u, double* r, double* K) const {
@@ -119,37 +124,39 @@ void FaceLoads::add_dead(const Face& face, double time, double* r) const {
   const double scale = face.load->traction_scale(time);
   for (const Point& point : face.points) {
     const double area = norm(point.normal);
-    for (int i = 0; i < 3; ++i) {
+    const int nodes = static_cast<int>(point.N.size());
+    for (int i = 0; i < dimension_; ++i) {
       const double force = scale * face.load->traction[i] * area;
-      for (int a = 0; a < nodes_; ++a) r[i * nodes_ + a] -= force * point.N[a];
+      for (int a = 0; a < nodes; ++a) r[i * nodes + a] -= force * point.N[a];
     }
   }
 }
 
 /// Force on the body: -p cof F N dA (Nanson).
 void FaceLoads::add_follower(const Point& point, double pressure, const double* u, double* r, double* K) const {
+  const int nodes = static_cast<int>(point.N.size());
   Mat3 F = identity;
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < dimension_; ++i)
     for (int J = 0; J < 3; ++J)
-      for (int a = 0; a < nodes_; ++a) F[3 * i + J] += u[i * nodes_ + a] * point.G[J * nodes_ + a];
+      for (int a = 0; a < nodes; ++a) F[3 * i + J] += u[i * nodes + a] * point.G[J * nodes + a];
   const Mat3 cof = cofactor(F);
   const Vec3 n = multiply(cof, point.normal);
-  for (int i = 0; i < 3; ++i)
-    for (int a = 0; a < nodes_; ++a) r[i * nodes_ + a] += pressure * n[i] * point.N[a];
+  for (int i = 0; i < dimension_; ++i)
+    for (int a = 0; a < nodes; ++a) r[i * nodes + a] += pressure * n[i] * point.N[a];
   if (!K) return;
   const double J = determinant(F);
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      for (int b = 0; b < nodes_; ++b) {
+  for (int i = 0; i < dimension_; ++i)
+    for (int k = 0; k < dimension_; ++k)
+      for (int b = 0; b < nodes; ++b) {
         double dn = 0;  // d (cof F N)_i / d u_kb
         for (int L = 0; L < 3; ++L) {
           double along = 0;
           for (int M = 0; M < 3; ++M)
             along += (cof[3 * i + M] * cof[3 * k + L] - cof[3 * i + L] * cof[3 * k + M]) * point.normal[M];
-          dn += along / J * point.G[L * nodes_ + b];
+          dn += along / J * point.G[L * nodes + b];
         }
-        for (int a = 0; a < nodes_; ++a)
-          K[(i * nodes_ + a) * 3 * nodes_ + k * nodes_ + b] += pressure * dn * point.N[a];
+        for (int a = 0; a < nodes; ++a)
+          K[(i * nodes + a) * dimension_ * nodes + k * nodes + b] += pressure * dn * point.N[a];
       }
 }
 

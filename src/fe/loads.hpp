@@ -10,8 +10,7 @@
 
 namespace titin {
 
-class CellTables;
-class ThreeField;
+class CellElements;
 
 struct BoundaryConfig {
   std::string name;
@@ -35,7 +34,7 @@ class Constraints {
   const mfem::Array<int>& dofs() const { return dofs_; }  ///< true dofs, this rank, increasing
   bool is_constrained_local(int local_dof) const { return local_marker_[local_dof] != 0; }
   void set_values(double time, mfem::Vector& u) const;  ///< u_i = g_i(t) at dofs()
-  /// True dofs of all three components on a boundary: [component] -> dofs; its reaction is the sum of their residuals.
+  /// True dofs of all components on a boundary: [component] -> dofs; its reaction is the sum of their residuals.
   const std::array<mfem::Array<int>, 3>& boundary_dofs(int boundary) const { return boundary_dofs_[boundary]; }
 
  private:
@@ -48,12 +47,12 @@ class Constraints {
 /// Surface loads as integrals over cell faces in the reference configuration.
 class FaceLoads {
  public:
-  FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, const CellTables& tables,
+  FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, const CellElements& elements,
             const mfem::ParFiniteElementSpace& space, int points);
 
   bool on_cell(int cell) const { return !faces_of_cell_[cell].empty(); }
   bool has_follower() const { return has_follower_; }
-  /// Adds minus the load's nodal forces to r [3][nodes]; with K != nullptr also their derivative.
+  /// Adds minus the load's nodal forces to r [components][nodes]; with K != nullptr also their derivative.
   void add(int cell, double time, const double* u, double* r, double* K) const;
 
  private:
@@ -65,12 +64,12 @@ class FaceLoads {
     const BoundaryConfig* load;
     std::vector<Point> points;
   };
-  void add_face(int boundary_face, const BoundaryConfig& load, const mfem::IntegrationRule& rule, mfem::ParMesh& mesh,
-                const mfem::FiniteElement& element);
+  void add_face(mfem::FaceElementTransformations& map, const BoundaryConfig& load, const mfem::IntegrationRule& rule,
+                const mfem::FiniteElement& element, double thickness);
   void add_dead(const Face& face, double time, double* r) const;
   void add_follower(const Point& point, double pressure, const double* u, double* r, double* K) const;
 
-  int nodes_;
+  int dimension_;
   bool has_follower_ = false;
   std::vector<std::vector<Face>> faces_of_cell_;
 };

@@ -11,8 +11,8 @@ namespace titin {
 Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
     : mesh_(std::move(mesh)),
       config_(std::move(config)),
-      collection_(config_.order, 3),
-      space_(mesh_.mesh.get(), &collection_, 3, mfem::Ordering::byVDIM),
+      collection_(config_.elements.collection(mesh_.mesh->Dimension())),
+      space_(mesh_.mesh.get(), collection_.get(), mesh_.mesh->Dimension(), mfem::Ordering::byVDIM),
       system_(config_, mesh_, space_),
       history_(system_),
       fields_(system_),

@@ -42,7 +42,7 @@ class Muscle : public Model {
 
   NamedMesh mesh_;
   MuscleConfig config_;
-  mfem::H1_FECollection collection_;
+  std::unique_ptr<mfem::FiniteElementCollection> collection_;
   mfem::ParFiniteElementSpace space_;
   MuscleSystem system_;
   std::unique_ptr<Newton> newton_;  // from the first step on

@@ -12,14 +12,25 @@ namespace {
 constexpr int max_order = 3;
 constexpr int max_points = 8;
 
-void bind_formulation(Section s, MuscleConfig& c) {
+void bind_formulation(Section s, MuscleConfig& c, const NamedMesh& mesh) {
   s.choose("inertia", c.inertia, {{"dynamic", Inertia::dynamic}, {"quasi-static", Inertia::quasi_static}},
            {.doc = "quasi-static: no inertia, and the rate of the fibres is taken as zero"});
+  s.choose("element", c.formulation,
+           {{"three_field", Formulation::three_field}, {"displacement", Formulation::displacement}},
+           {.doc = "displacement with discontinuous pressure and dilatation, or alone: cheaper, but it locks where the "
+                   "volume hardly changes"});
   s.read("order", c.order,
          {.range = {.min = 1, .max = max_order},
-          .doc = "k of Q_k displacement with P_(k-1) discontinuous pressure and dilatation"});
+          .doc = "k: the displacement's error falls as h^(k+1), the pressure's as h^k; simplices have k = 1, 2, wedges "
+                 "2 (but of the accuracy of 1)"});
   s.read("quadrature", c.quadrature,
-         {.range = {.min = 0, .max = max_points}, .doc = "Gauss points per direction; 0 takes order + 1, the least"});
+         {.range = {.min = 0, .max = max_points},
+          .doc = "Gauss points per direction, of simplices a rule of degree 2 (n - 1) or what their element needs; 0 "
+                 "takes order + 1, the least"});
+  if (mesh.mesh && c.order >= 1 && c.order <= max_order) {
+    c.elements = CellElements(c.formulation, c.order, *mesh.mesh);
+    if (!c.elements.problem().empty()) s.error("order", c.elements.problem(), c.elements.advice());
+  }
   if (c.quadrature > 0 && c.quadrature <= c.order)
     s.error("quadrature",
             fmt::format("{} a direction leave motions of order {} without force", count(c.quadrature, "Gauss point"),
@@ -37,7 +48,7 @@ void bind_formulation(Section s, MuscleConfig& c) {
 }  // namespace
 
 void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
-  bind_formulation(root.section("muscle", "the implicit three-field finite element formulation"), *this);
+  bind_formulation(root.section("muscle", "the implicit finite element formulation"), *this, mesh);
   bind_materials(root, mesh);
   root.each("boundary", "what happens at a boundary of the mesh; one that is not named is free",
             [&](const std::string& name, Section s) {

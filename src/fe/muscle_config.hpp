@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fe/cell_element.hpp"
 #include "fe/loads.hpp"
 #include "fe/observers.hpp"
 #include "materials/material.hpp"
@@ -18,8 +19,10 @@ enum class Inertia { dynamic, quasi_static };
 
 struct MuscleConfig {
   Inertia inertia = Inertia::dynamic;
-  int order = 2;       // of the displacement
-  int quadrature = 0;  // Gauss points per direction; 0: order + 1
+  Formulation formulation = Formulation::three_field;
+  int order = 2;          // of the displacement
+  int quadrature = 0;     // Gauss points per direction; 0: order + 1
+  CellElements elements;  // by geometry of the cells
   FibreRate fibre_rate = FibreRate::stretch_difference;
   std::array<double, 3> pennation_axis{1, 0, 0};
   std::array<double, 3> body_acceleration{};  // [m/s^2]

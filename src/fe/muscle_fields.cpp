@@ -23,19 +23,37 @@ mfem::DenseMatrix projection_matrix(const mfem::FiniteElement& element, const mf
   return projection;
 }
 
+/// The matrix that takes dofs of one element to values at the nodes of another in the same cell.
+mfem::DenseMatrix evaluation_matrix(const mfem::FiniteElement& from, const mfem::FiniteElement& at) {
+  mfem::DenseMatrix values(at.GetDof(), from.GetDof());
+  mfem::Vector N(from.GetDof());
+  for (int a = 0; a < at.GetDof(); ++a) {
+    from.CalcShape(at.GetNodes().IntPoint(a), N);
+    values.SetRow(a, N);
+  }
+  return values;
+}
+
 }  // namespace
 
 MuscleFields::MuscleFields(MuscleSystem& system)
     : system_(system),
-      cell_collection_(system.config().order - 1, 3),
-      constant_collection_(0, 3),
+      nodal_collection_(system.config().elements.list().front().nodal_order, system.tables().dimension()),
+      cell_collection_(system.config().order - 1, system.tables().dimension()),
+      constant_collection_(0, system.tables().dimension()),
+      nodal_(system.space().GetParMesh(), &nodal_collection_, 3, mfem::Ordering::byVDIM),
       scalars_(system.space().GetParMesh(), &cell_collection_),
       vectors_(system.space().GetParMesh(), &cell_collection_, 3, mfem::Ordering::byVDIM),
       tensors_(system.space().GetParMesh(), &cell_collection_, tensor_components, mfem::Ordering::byVDIM),
-      constants_(system.space().GetParMesh(), &constant_collection_),
-      projection_(projection_matrix(*scalars_.GetFE(0), system.tables().rule())) {
-  displacement_ = add("displacement", "m", system.space());
-  velocity_ = add("velocity", "m/s", system.space());
+      constants_(system.space().GetParMesh(), &constant_collection_) {
+  for (int cell = 0; cell < scalars_.GetNE(); ++cell) {
+    const auto geometry = geometry_of(cell);
+    if (projection_[geometry].Height() > 0) continue;
+    projection_[geometry] = projection_matrix(*scalars_.GetFE(cell), system.tables().rule(cell));
+    evaluation_[geometry] = evaluation_matrix(*system.space().GetFE(cell), *nodal_.GetFE(cell));
+  }
+  displacement_ = add("displacement", "m", nodal_);
+  velocity_ = add("velocity", "m/s", nodal_);
   pressure_ = add("pressure", "Pa", scalars_);
   dilatation_ = add("dilatation", "", scalars_);
   stretch_ = add("fibre_stretch", "", scalars_);
@@ -56,11 +74,31 @@ mfem::ParGridFunction* MuscleFields::add(const std::string& name, const std::str
 }
 
 void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v, const mfem::Vector& u_old) {
-  displacement_->SetFromTrueDofs(u);
-  velocity_->SetFromTrueDofs(v);
+  draw(u, *displacement_);
+  draw(v, *velocity_);
   system_.for_each_cell(u, u_old, [&](int cell, const Material& material, const ThreeField& kernel) {
     update_points(cell, material, kernel);
   });
+}
+
+mfem::Geometry::Type MuscleFields::geometry_of(int cell) const {
+  return system_.space().GetParMesh()->GetElementGeometry(cell);
+}
+
+/// Values at the nodes of the drawn space: bubbles are left out, and plane vectors get a third component of zero.
+void MuscleFields::draw(const mfem::Vector& true_values, mfem::ParGridFunction& field) {
+  const std::vector<double> values = system_.cell_values(true_values);
+  mfem::Array<int> dofs;
+  mfem::Vector drawn;
+  for (int cell = 0; cell < nodal_.GetNE(); ++cell) {
+    const mfem::DenseMatrix& evaluation = evaluation_[geometry_of(cell)];
+    drawn.SetSize(evaluation.Height());
+    nodal_.GetElementDofs(cell, dofs);
+    for (int i = 0; i < system_.tables().dimension(); ++i) {
+      evaluation.Mult(&values[system_.first_value(cell) + i * evaluation.Width()], drawn.GetData());
+      for (int a = 0; a < dofs.Size(); ++a) field(nodal_.DofToVDof(dofs[a], i)) = drawn(a);
+    }
+  }
 }
 
 void MuscleFields::update_points(int cell, const Material& material, const ThreeField& kernel) {
@@ -94,11 +132,12 @@ void MuscleFields::project(int cell, const std::vector<double>& at_points, int c
                            mfem::ParGridFunction& field) {
   mfem::Array<int> dofs;
   field.ParFESpace()->GetElementVDofs(cell, dofs);  // component first
-  const int n = projection_.Height();
+  const mfem::DenseMatrix& projection = projection_[geometry_of(cell)];
+  const int n = projection.Height();
   for (int c = 0; c < components; ++c)
     for (int a = 0; a < n; ++a) {
       double value = 0;
-      for (int q = 0; q < projection_.Width(); ++q) value += projection_(a, q) * at_points[q * components + c];
+      for (int q = 0; q < projection.Width(); ++q) value += projection(a, q) * at_points[q * components + c];
       field(dofs[c * n + a]) = value;
     }
 }

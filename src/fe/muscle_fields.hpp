@@ -2,6 +2,7 @@
 /// cell.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mfem.hpp>
 #include <string>
@@ -22,13 +23,18 @@ class MuscleFields {
 
  private:
   mfem::ParGridFunction* add(const std::string& name, const std::string& unit, mfem::ParFiniteElementSpace& space);
+  mfem::Geometry::Type geometry_of(int cell) const;
+  void draw(const mfem::Vector& true_values, mfem::ParGridFunction& field);
   void project(int cell, const std::vector<double>& at_points, int components, mfem::ParGridFunction& field);
   void update_points(int cell, const Material& material, const ThreeField& kernel);
 
   MuscleSystem& system_;
+  mfem::H1_FECollection nodal_collection_;
   mfem::L2_FECollection cell_collection_, constant_collection_;
-  mfem::ParFiniteElementSpace scalars_, vectors_, tensors_, constants_;
-  mfem::DenseMatrix projection_;  // cell dofs x points: least squares in the reference cell
+  mfem::ParFiniteElementSpace nodal_, scalars_, vectors_, tensors_, constants_;
+  // By geometry of the cell:
+  std::array<mfem::DenseMatrix, mfem::Geometry::NumGeom> projection_;  // cell dofs x points: least squares in the cell
+  std::array<mfem::DenseMatrix, mfem::Geometry::NumGeom> evaluation_;  // drawn nodes x nodes
   std::vector<std::unique_ptr<mfem::ParGridFunction>> storage_;
   std::vector<Field> fields_;
   mfem::ParGridFunction *displacement_, *velocity_, *pressure_, *dilatation_, *stretch_, *rate_, *activation_,

@@ -61,7 +61,7 @@ void MuscleHistory::take_markers() {
   for (const MarkerConfig& config : system_.config().markers) {
     Marker marker{config.name, config.cell, {}};
     if (config.cell >= 0) {
-      marker.shape.SetSize(system_.tables().nodes());
+      marker.shape.SetSize(system_.tables().nodes(config.cell));
       space.GetFE(config.cell)->CalcShape(config.place, marker.shape);
     }
     markers_.push_back(marker);
@@ -76,9 +76,8 @@ void MuscleHistory::update(const mfem::Vector& u, const mfem::Vector& v, const S
     if (term.stored) term.value = term.dissipated = 0;
   for (auto& mean : means_) mean.volume = mean.stretch = mean.pennation = mean.rate = 0;
   const std::vector<double> v_cells = system_.cell_values(v);
-  const int n = 3 * system_.tables().nodes();
   system_.for_each_cell(u, step.u_old, [&](int cell, const Material& material, const ThreeField& kernel) {
-    add_cell(cell, material, kernel, kernel.points(system_.point_input(cell)), &v_cells[cell * n]);
+    add_cell(cell, material, kernel, kernel.points(system_.point_input(cell)), &v_cells[system_.first_value(cell)]);
   });
   if (step.dt > 0) add_boundary_work(u, step.u_old);
   if (kinetic_at_start_ < 0) {
@@ -97,9 +96,9 @@ void MuscleHistory::add_cell(int cell, const Material& material, const ThreeFiel
     const double w = tables.weight(cell, q);
     volume_ += w * kernel.J()[q];
     volumetric_ += w * material.volumetric(kernel.dilatation()[q]).U;
-    for (int i = 0; i < 3 && moving; ++i) {
+    for (int i = 0; i < tables.dimension() && moving; ++i) {
       double velocity = 0;
-      for (int a = 0; a < tables.nodes(); ++a) velocity += tables.shape(q)[a] * v[i * tables.nodes() + a];
+      for (int a = 0; a < tables.nodes(cell); ++a) velocity += tables.shape(cell, q)[a] * v[i * tables.nodes(cell) + a];
       kinetic_ += 0.5 * material.density() * w * velocity * velocity;
     }
   }
@@ -166,7 +165,8 @@ std::vector<Quantity> MuscleHistory::quantities() const {
   std::vector<Quantity> list;
   const auto& boundaries = system_.config().boundaries;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
-    for (int i = 0; i < 3 && boundaries[b].constrained(); ++i) list.push_back(reaction(static_cast<int>(b), i));
+    for (int i = 0; i < system_.tables().dimension() && boundaries[b].constrained(); ++i)
+      list.push_back(reaction(static_cast<int>(b), i));
   const double kinetic = sum(kinetic_), volumetric = sum(volumetric_);
   list.push_back({"energy_kinetic", "J", kinetic});
   list.push_back({"energy_volumetric", "J", volumetric});
@@ -194,12 +194,12 @@ std::vector<Quantity> MuscleHistory::quantities() const {
     list.push_back({"mean_fibre_rate_" + mean.name, "1/s", sum(mean.rate) * over});
   }
   const std::vector<double> u_cells = system_.cell_values(u_);
-  const int nodes = system_.tables().nodes();
   for (const auto& marker : markers_)
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < system_.tables().dimension(); ++i) {
       double value = 0;
-      for (int a = 0; a < nodes && marker.cell >= 0; ++a)
-        value += marker.shape(a) * u_cells[(3 * marker.cell + i) * nodes + a];
+      const int nodes = marker.shape.Size();  // none on other ranks
+      for (int a = 0; a < nodes; ++a)
+        value += marker.shape(a) * u_cells[system_.first_value(marker.cell) + i * nodes + a];
       list.push_back({fmt::format("marker_{}_u{}", marker.name, component_name[i]), "m", sum(value)});
     }
   return list;

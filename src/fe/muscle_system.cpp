@@ -19,18 +19,19 @@ constexpr double round_off = 1e-15;
 MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mfem::ParFiniteElementSpace& space)
     : config_(config),
       space_(space),
-      tables_(space, config.order, config.points()),
+      tables_(space, config.elements, config.points(), mesh.thickness),
       constraints_(config.boundaries, mesh, space),
-      loads_(config.boundaries, mesh, tables_, space, config.points()),
+      loads_(config.boundaries, mesh, config.elements, space, config.points()),
       kernel_(tables_),
-      u_cell_(3 * tables_.nodes()),
-      u_old_cell_(3 * tables_.nodes()),
+      u_cell_(tables_.most_values()),
+      u_old_cell_(tables_.most_values()),
       forces_(space.GetTrueVSize()),
       body_forces_(space.GetTrueVSize()),
       load_forces_(space.GetTrueVSize()) {
   mfem::Array<int> dofs;
   for (int cell = 0; cell < space.GetNE(); ++cell) {
     space.GetElementVDofs(cell, dofs);
+    first_value_.push_back(static_cast<int>(cell_dofs_.size()));
     cell_dofs_.insert(cell_dofs_.end(), dofs.begin(), dofs.end());
     materials_.push_back(config.materials.at(config.material_of_region.at(mesh.mesh->GetAttribute(cell))).get());
   }
@@ -85,10 +86,9 @@ void MuscleSystem::form_cells(const LocalVectors& local, const std::function<voi
 }
 
 void MuscleSystem::form_cells_singly(const LocalVectors& local, const std::function<void(int, double*)>& take) {
-  const int n = 3 * tables_.nodes();
-  std::vector<double> K(n * n);
+  std::vector<double> K;
   for (int cell = 0; cell < space_.GetNE(); ++cell) {
-    std::fill(K.begin(), K.end(), 0.0);
+    K.assign(std::size_t(tables_.values(cell)) * tables_.values(cell), 0.0);
     gather(cell, local);
     kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data());
     kernel_.add_tangent(cell, material(cell), point_input(cell), K.data());
@@ -104,16 +104,19 @@ bool MuscleSystem::symmetric_materials() const {
 }
 
 void MuscleSystem::start_history() {
-  std::vector<int> row_size;
-  for (const Material* material : materials_) row_size.push_back(material->history_size());
-  history_ = History(row_size, tables_.points());
+  std::vector<int> row_size, points;
+  for (int cell = 0; cell < space_.GetNE(); ++cell) {
+    row_size.push_back(material(cell).history_size());
+    points.push_back(tables_.points(cell));
+  }
+  history_ = History(row_size, points);
   PointInput rest;
   rest.n = 1;
   rest.F = rest.F_old = &identity;
   for (int cell = 0; cell < space_.GetNE(); ++cell) {
     const Vec3 fibre = material(cell).fibre();
     rest.fibre = &fibre;
-    for (int q = 0; q < tables_.points(); ++q)
+    for (int q = 0; q < tables_.points(cell); ++q)
       material(cell).start_history(rest, history_.now(cell) + q * row_size[cell]);
   }
   history_.commit();
@@ -127,8 +130,7 @@ MuscleSystem::LocalVectors::LocalVectors(MuscleSystem& system, const mfem::Vecto
 }
 
 void MuscleSystem::gather(int cell, const mfem::Vector& local, double* values) const {
-  const int n = 3 * tables_.nodes();
-  for (int c = 0; c < n; ++c) values[c] = local(cell_dofs_[cell * n + c]);
+  for (int c = 0; c < tables_.values(cell); ++c) values[c] = local(dofs(cell)[c]);
 }
 
 std::vector<double> MuscleSystem::cell_values(const mfem::Vector& v) const {
@@ -202,13 +204,13 @@ bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mf
                                    LocalForces& forces) {
   gather(cell, local);
   if (!kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data())) return false;
-  const int n = 3 * tables_.nodes();
+  const int n = tables_.values(cell);
   std::vector<double> internal(n), inertia(n), body(n), load(n);
   kernel_.add_forces(cell, material(cell), point_input(cell), internal.data());
   loads_.add(cell, step_.time, u_cell_.data(), load.data(), nullptr);
   add_inertia_and_body(cell, acceleration, inertia.data(), body.data());
   for (int c = 0; c < n; ++c) {
-    const int dof = cell_dofs_[cell * n + c];
+    const int dof = dofs(cell)[c];
     forces.internal(dof) += internal[c];
     forces.inertia(dof) += inertia[c];
     forces.body(dof) += body[c];
@@ -221,14 +223,14 @@ bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mf
 /// Nodal forces of density * acceleration, and of density * body acceleration.
 void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& acceleration, double* inertia,
                                         double* body) const {
-  const int nodes = tables_.nodes();
-  std::vector<double> a(3 * nodes);
+  const int nodes = tables_.nodes(cell), dimension = tables_.dimension();
+  std::vector<double> a(dimension * nodes);
   gather(cell, acceleration, a.data());
   const double scale = config_.body_scale(step_.time), density = material(cell).density();
-  for (int q = 0; q < tables_.points(); ++q) {
+  for (int q = 0; q < tables_.points(cell); ++q) {
     const double mass = density * tables_.weight(cell, q);
-    const double* N = tables_.shape(q);
-    for (int i = 0; i < 3; ++i) {
+    const double* N = tables_.shape(cell, q);
+    for (int i = 0; i < dimension; ++i) {
       double at_point = 0;
       for (int b = 0; b < nodes; ++b) at_point += N[b] * a[i * nodes + b];
       const double pull = mass * scale * config_.body_acceleration[i];
@@ -242,7 +244,6 @@ void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& accelerati
 
 void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfem::Vector* R) {
   Timers::Scope timer("tangent");
-  const int n = 3 * tables_.nodes();
   const LocalVectors local(*this, u, step_.u_old);
   mfem::Vector local_lift, local_R;
   if (lift) {
@@ -252,9 +253,10 @@ void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfe
     local_R = 0.0;
   }
   double stiffest = 0;
-  std::vector<double> unused(n);
+  std::vector<double> unused(tables_.most_values());
   assembly().begin();
   form_cells(local, [&](int cell, double* K) {
+    const int n = tables_.values(cell);
     for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(K[c * n + c]));
     if (loads_.on_cell(cell)) {
       gather(cell, local);
@@ -277,22 +279,22 @@ void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfe
 
 /// Mass / dt^2: the derivative of backward Euler's inertia.
 void MuscleSystem::add_inertia_tangent(int cell, double* K) const {
-  const int nodes = tables_.nodes(), n = 3 * nodes;
+  const int nodes = tables_.nodes(cell), n = tables_.values(cell);
   std::vector<double> mass(nodes * nodes);
   kernel_.add_mass(cell, material(cell).density() / (step_.dt * step_.dt), mass.data());
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < tables_.dimension(); ++i)
     for (int a = 0; a < nodes; ++a)
       for (int b = 0; b < nodes; ++b) K[(i * nodes + a) * n + i * nodes + b] += mass[a * nodes + b];
 }
 
 /// What a change of the cell's constrained values does to its forces.
 void MuscleSystem::add_lift(int cell, const double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const {
-  const int n = 3 * tables_.nodes();
-  const int* dofs = &cell_dofs_[cell * n];
+  const int n = tables_.values(cell);
   for (int d = 0; d < n; ++d) {
-    const double lift = constraints_.is_constrained_local(dofs[d]) ? (*local_lift)(dofs[d]) : 0.0;
+    const int dof = dofs(cell)[d];
+    const double lift = constraints_.is_constrained_local(dof) ? (*local_lift)(dof) : 0.0;
     if (lift == 0) continue;
-    for (int c = 0; c < n; ++c) (*local_R)(dofs[c]) += K[c * n + d] * lift;
+    for (int c = 0; c < n; ++c) (*local_R)(dofs(cell)[c]) += K[c * n + d] * lift;
   }
 }
 
@@ -302,10 +304,8 @@ void MuscleSystem::set_domain_error(int cell, int point) {
   const bool winner = cell >= 0 && mine == first;
   std::vector<double> x(3, 0.0);
   if (winner) {
-    mfem::Vector position(3);
-    auto* map = space_.GetElementTransformation(cell);
-    map->Transform(tables_.rule().IntPoint(std::max(point, 0)), position);
-    x.assign(position.begin(), position.end());
+    mfem::Vector position(x.data(), tables_.dimension());
+    space_.GetElementTransformation(cell)->Transform(tables_.rule(cell).IntPoint(std::max(point, 0)), position);
   }
   sum(x);
   domain_error_ =

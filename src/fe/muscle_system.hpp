@@ -67,8 +67,9 @@ class MuscleSystem : public NonlinearSystem {
     }
   }
   const Material& material(int cell) const { return *materials_[cell]; }
-  /// Values of a true-dof vector at the nodes of this rank's cells, [3][nodes] a cell.
+  /// Values of a true-dof vector at the nodes of this rank's cells: [components][nodes] of a cell from first_value on.
   std::vector<double> cell_values(const mfem::Vector& v) const;
+  int first_value(int cell) const { return first_value_[cell]; }
   /// Time, step and history of a cell's points; deform() fills in the rest.
   PointInput point_input(int cell) const;
   History& history() { return history_; }
@@ -84,6 +85,7 @@ class MuscleSystem : public NonlinearSystem {
   struct LocalForces;
   bool moving() const { return config_.inertia == Inertia::dynamic && step_.dt > 0; }
   bool add_cell_forces(int cell, const LocalVectors& local, const mfem::Vector& acceleration, LocalForces& forces);
+  const int* dofs(int cell) const { return &cell_dofs_[first_value_[cell]]; }
   void gather(int cell, const LocalVectors& local);
   void gather(int cell, const mfem::Vector& local, double* values) const;
   void assemble(const mfem::Vector& u, const mfem::Vector* lift, mfem::Vector* R);
@@ -107,8 +109,9 @@ class MuscleSystem : public NonlinearSystem {
   FaceLoads loads_;
   ThreeField kernel_;
   std::vector<const Material*> materials_;  // of each cell
-  std::vector<int> cell_dofs_;              // [cell][3][nodes], local dofs
-  mutable History history_{{}, 0};          // written as stresses are evaluated
+  std::vector<int> cell_dofs_;              // [cell][component][node], local dofs
+  std::vector<int> first_value_;            // of each cell in cell_dofs_
+  mutable History history_;                 // written as stresses are evaluated
   StepState step_;
   std::unique_ptr<CellMatrices> matrices_;  // null where cells are formed singly
   std::unique_ptr<Assembly> assembly_;      // large: not there before the first step, so that checking a scene is cheap

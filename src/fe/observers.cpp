@@ -22,7 +22,7 @@ bool was_read(const std::array<double, 3>& x) {
 }
 
 bool inside(const AverageConfig& box, const mfem::Vector& x) {
-  for (int d = 0; d < 3; ++d) {
+  for (int d = 0; d < x.Size(); ++d) {
     const double margin = border * (box.upper[d] - box.lower[d]);
     if (x(d) < box.lower[d] - margin || x(d) > box.upper[d] + margin) return false;
   }
@@ -36,9 +36,10 @@ std::string bounds(mfem::ParMesh& mesh) {
 }
 
 void find_markers(std::vector<MarkerConfig>& markers, mfem::ParMesh& mesh, Section& section) {
-  mfem::DenseMatrix points(3, static_cast<int>(markers.size()));
+  mfem::DenseMatrix points(mesh.Dimension(), static_cast<int>(markers.size()));
   for (std::size_t m = 0; m < markers.size(); ++m)
-    for (int d = 0; d < 3; ++d) points(d, m) = was_read(markers[m].position) ? markers[m].position[d] : 0.0;
+    for (int d = 0; d < mesh.Dimension(); ++d)
+      points(d, m) = was_read(markers[m].position) ? markers[m].position[d] : 0.0;
   mfem::Array<int> cells;
   mfem::Array<mfem::IntegrationPoint> places;
   mesh.FindPoints(points, cells, places, false);  // on the lowest rank of those that share it
@@ -65,9 +66,10 @@ bool has_corners(const AverageConfig& box, Section& section) {
 }
 
 void find_cells(AverageConfig& box, mfem::ParMesh& mesh, Section& section) {
-  mfem::Vector centre(3);
+  mfem::Vector centre(mesh.Dimension());
   for (int cell = 0; cell < mesh.GetNE(); ++cell) {
-    mesh.GetElementTransformation(cell)->Transform(mfem::Geometries.GetCenter(mfem::Geometry::CUBE), centre);
+    const auto& middle = mfem::Geometries.GetCenter(mesh.GetElementGeometry(cell));
+    mesh.GetElementTransformation(cell)->Transform(middle, centre);
     if (inside(box, centre)) box.cells.push_back(cell);
   }
   if (!any_of(!box.cells.empty()))

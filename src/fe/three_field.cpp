@@ -1,6 +1,8 @@
 #include "fe/three_field.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace titin {
 
@@ -31,22 +33,23 @@ void outer_product_sum(int nodes, int terms, const double* G, const double* H, d
   }
 }
 
+using OuterProductSum = void (*)(int nodes, int terms, const double* G, const double* H, double* C);
+
+template <int... packs>
+constexpr std::array<OuterProductSum, sizeof...(packs)> kernels_of(std::integer_sequence<int, packs...>) {
+  return {&outer_product_sum<packs + 1>...};
+}
+constexpr int most_packs = 8;  // Q3 hexahedra: 64 nodes
+constexpr auto kernels = kernels_of(std::make_integer_sequence<int, most_packs>{});
+
 void outer_product_sum(int nodes, int padded, int terms, const double* G, const double* H, double* C) {
-  switch (padded / pack) {
-    case 1:
-      return outer_product_sum<1>(nodes, terms, G, H, C);  // Q1
-    case 4:
-      return outer_product_sum<4>(nodes, terms, G, H, C);  // Q2
-    case 8:
-      return outer_product_sum<8>(nodes, terms, G, H, C);  // Q3
-    default:
-      MFEM_ABORT("no kernel for this number of nodes");
-  }
+  kernels[padded / pack - 1](nodes, terms, G, H, C);
 }
 
-Mat3 deformation_gradient(const double* G, int nodes, int padded, const double* u) {
+/// In plane strain F_33 = 1.
+Mat3 deformation_gradient(const double* G, int dimension, int nodes, int padded, const double* u) {
   Mat3 F = identity;
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < dimension; ++i)
     for (int J = 0; J < 3; ++J) {
       double sum = 0;
       for (int a = 0; a < nodes; ++a) sum += u[i * nodes + a] * G[J * padded + a];
@@ -59,36 +62,37 @@ Mat3 deformation_gradient(const double* G, int nodes, int padded, const double* 
 
 ThreeField::ThreeField(const CellTables& tables)
     : tables_(tables),
-      G_(3 * tables.points() * tables.padded()),
+      G_(tables.most_gradients()),
       H_(G_.size()),
-      F_(tables.points()),
-      F_old_(tables.points()),
-      cofactor_(tables.points()),
-      P_(tables.points()),
-      A_(tables.points()),
-      fibre_(tables.points()),
-      J_(tables.points()),
-      D_(tables.points()),
-      p_(tables.points()),
-      dU_(tables.points()),
-      factor_(tables.points()),
-      S_(tables.modes() * tables.modes()) {}
+      F_(tables.most_points()),
+      F_old_(F_.size()),
+      cofactor_(F_.size()),
+      P_(F_.size()),
+      A_(F_.size()),
+      fibre_(F_.size()),
+      J_(F_.size()),
+      D_(F_.size()),
+      p_(F_.size()),
+      dU_(F_.size()),
+      factor_(F_.size()),
+      S_(tables.most_modes() * tables.most_modes()) {}
 
 bool ThreeField::deform(int cell, const Material& material, const double* u, const double* u_old) {
-  const int nodes = tables_.nodes(), padded = tables_.padded(), points = tables_.points();
+  const int dimension = tables_.dimension(), nodes = tables_.nodes(cell), padded = tables_.padded(cell);
+  points_ = tables_.points(cell);
   tables_.gradients(cell, G_.data());
   bad_point_ = -1;
-  for (int q = 0; q < points; ++q) {
+  for (int q = 0; q < points_; ++q) {
     const double* G = &G_[3 * q * padded];
-    F_[q] = deformation_gradient(G, nodes, padded, u);
-    F_old_[q] = deformation_gradient(G, nodes, padded, u_old);
+    F_[q] = deformation_gradient(G, dimension, nodes, padded, u);
+    F_old_[q] = deformation_gradient(G, dimension, nodes, padded, u_old);
     J_[q] = determinant(F_[q]);
     cofactor_[q] = cofactor(F_[q]);
     if (!(J_[q] > 0)) bad_point_ = q;
   }
   if (bad_point_ >= 0) return false;
   project(cell, J_, D_);
-  for (int q = 0; q < points; ++q) {
+  for (int q = 0; q < points_; ++q) {
     if (!(D_[q] > 0)) bad_point_ = q;
     dU_[q] = material.volumetric(D_[q]).dU;
   }
@@ -97,24 +101,28 @@ bool ThreeField::deform(int cell, const Material& material, const double* u, con
   return bad_point_ < 0;
 }
 
-/// projected = Pi values, both at points.
+/// projected = Pi values, both at points; the values themselves when the displacement is alone.
 void ThreeField::project(int cell, const std::vector<double>& values, std::vector<double>& projected) const {
-  const int modes = tables_.modes(), points = tables_.points();
+  const int modes = tables_.modes(cell);
+  if (modes == 0) {
+    projected = values;
+    return;
+  }
   const double* mass_inverse = tables_.mode_mass_inverse(cell);
   constexpr int max_modes = 10;
   double moment[max_modes] = {}, coefficient[max_modes] = {};
-  for (int q = 0; q < points; ++q)
+  for (int q = 0; q < points_; ++q)
     for (int l = 0; l < modes; ++l) moment[l] += tables_.weight(cell, q) * values[q] * tables_.mode(cell, q)[l];
   for (int l = 0; l < modes; ++l)
     for (int m = 0; m < modes; ++m) coefficient[l] += mass_inverse[l * modes + m] * moment[m];
-  for (int q = 0; q < points; ++q) {
+  for (int q = 0; q < points_; ++q) {
     projected[q] = 0;
     for (int l = 0; l < modes; ++l) projected[q] += coefficient[l] * tables_.mode(cell, q)[l];
   }
 }
 
 PointInput ThreeField::points(PointInput in) const {
-  in.n = tables_.points();
+  in.n = points_;
   in.F = F_.data();
   in.F_old = F_old_.data();
   in.fibre = fibre_.data();
@@ -122,12 +130,12 @@ PointInput ThreeField::points(PointInput in) const {
 }
 
 void ThreeField::add_forces(int cell, const Material& material, PointInput in, double* r) {
-  const int nodes = tables_.nodes(), padded = tables_.padded();
+  const int dimension = tables_.dimension(), nodes = tables_.nodes(cell), padded = tables_.padded(cell);
   material.stress(points(in), P_.data(), nullptr);
-  for (int q = 0; q < tables_.points(); ++q) {
+  for (int q = 0; q < points_; ++q) {
     const double w = tables_.weight(cell, q);
-    for (int i = 0; i < 3; ++i)
-      for (int J = 0; J < 3; ++J) {
+    for (int i = 0; i < dimension; ++i)
+      for (int J = 0; J < dimension; ++J) {
         const double stress = w * (P_[q][3 * i + J] + p_[q] * cofactor_[q][3 * i + J]);
         const double* G = &G_[(3 * q + J) * padded];
         for (int a = 0; a < nodes; ++a) r[i * nodes + a] += stress * G[a];
@@ -135,32 +143,35 @@ void ThreeField::add_forces(int cell, const Material& material, PointInput in, d
   }
 }
 
-/// A_ <- w (A_iso + p d cof F / dF), where d cof_iJ / dF_kL = (cof_iJ cof_kL - cof_iL cof_kJ) / J.
+/// A_ <- w (A_iso + p d cof F / dF), where d cof_iJ / dF_kL = (cof_iJ cof_kL - cof_iL cof_kJ) / J; of a displacement
+/// alone also U''(J) cof F (x) cof F.
 void ThreeField::set_total_moduli(int cell, const Material& material, const PointInput& in) {
   material.stress(in, P_.data(), A_.data());
-  for (int q = 0; q < tables_.points(); ++q) {
+  const bool alone = tables_.modes(cell) == 0;
+  for (int q = 0; q < points_; ++q) {
     const double w = tables_.weight(cell, q), factor = p_[q] / J_[q];
+    const double whole = factor + (alone ? material.volumetric(J_[q]).d2U : 0.0);
     const Mat3& cof = cofactor_[q];
     for (int i = 0; i < 3; ++i)
       for (int J = 0; J < 3; ++J)
         for (int k = 0; k < 3; ++k)
           for (int L = 0; L < 3; ++L) {
             double& A = A_[q][9 * (3 * i + J) + 3 * k + L];
-            A = w * (A + factor * (cof[3 * i + J] * cof[3 * k + L] - cof[3 * i + L] * cof[3 * k + J]));
+            A = w * (A + whole * cof[3 * i + J] * cof[3 * k + L] - factor * cof[3 * i + L] * cof[3 * k + J]);
           }
   }
 }
 
 TangentPoints ThreeField::tangent_points(int cell, const Material& material, PointInput in, double inertia) {
   material.stress(points(in), P_.data(), A_.data());
-  for (int q = 0; q < tables_.points(); ++q) factor_[q] = p_[q] / J_[q];
+  for (int q = 0; q < points_; ++q) factor_[q] = p_[q] / J_[q];
   set_mode_stiffness(cell, material, S_.data());
   return {A_.data(), cofactor_.data(), factor_.data(), S_.data(), inertia};
 }
 
-void ThreeField::add_block(int i, int k, double* K) {
-  const int nodes = tables_.nodes(), padded = tables_.padded(), points = tables_.points();
-  for (int q = 0; q < points; ++q)
+void ThreeField::add_block(int cell, int i, int k, double* K) {
+  const int nodes = tables_.nodes(cell), padded = tables_.padded(cell), n = tables_.values(cell);
+  for (int q = 0; q < points_; ++q)
     for (int J = 0; J < 3; ++J) {
       const double* A = &A_[q][9 * (3 * i + J) + 3 * k];
       const double* G = &G_[3 * q * padded];
@@ -168,37 +179,38 @@ void ThreeField::add_block(int i, int k, double* K) {
       for (int b = 0; b < padded; ++b) H[b] = A[0] * G[b] + A[1] * G[padded + b] + A[2] * G[2 * padded + b];
     }
   std::vector<double> block(nodes * padded);
-  outer_product_sum(nodes, padded, 3 * points, G_.data(), H_.data(), block.data());
+  outer_product_sum(nodes, padded, 3 * points_, G_.data(), H_.data(), block.data());
   for (int a = 0; a < nodes; ++a)
-    for (int b = 0; b < nodes; ++b) K[(i * nodes + a) * 3 * nodes + k * nodes + b] += block[a * padded + b];
+    for (int b = 0; b < nodes; ++b) K[(i * nodes + a) * n + k * nodes + b] += block[a * padded + b];
 }
 
 void ThreeField::add_tangent(int cell, const Material& material, PointInput in, double* K) {
-  const int nodes = tables_.nodes();
+  const int dimension = tables_.dimension(), nodes = tables_.nodes(cell), n = tables_.values(cell);
   set_total_moduli(cell, material, points(in));
   const bool symmetric = material.symmetric_tangent(in.rate);
-  for (int i = 0; i < 3; ++i)
-    for (int k = symmetric ? i : 0; k < 3; ++k) add_block(i, k, K);
+  for (int i = 0; i < dimension; ++i)
+    for (int k = symmetric ? i : 0; k < dimension; ++k) add_block(cell, i, k, K);
   if (symmetric)  // K comes in symmetric (zero, or with earlier symmetric parts)
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < dimension; ++i)
       for (int k = 0; k < i; ++k)
         for (int a = 0; a < nodes; ++a)
           for (int b = 0; b < nodes; ++b)
-            K[(i * nodes + a) * 3 * nodes + k * nodes + b] = K[(k * nodes + b) * 3 * nodes + i * nodes + a];
-  add_volumetric_stiffness(cell, material, K);
+            K[(i * nodes + a) * n + k * nodes + b] = K[(k * nodes + b) * n + i * nodes + a];
+  if (tables_.modes(cell) > 0) add_volumetric_stiffness(cell, material, K);
 }
 
 /// K += B^T S B with S = M^-1 [int U''(D) psi psi^T] M^-1.
 void ThreeField::add_volumetric_stiffness(int cell, const Material& material, double* K) {
-  const int nodes = tables_.nodes(), padded = tables_.padded(), modes = tables_.modes(), n = 3 * nodes;
+  const int nodes = tables_.nodes(cell), padded = tables_.padded(cell), modes = tables_.modes(cell);
+  const int n = tables_.values(cell);
   mfem::DenseMatrix B(n, modes), S(modes), SB(n, modes);
   B = 0.0;
   set_mode_stiffness(cell, material, S.GetData());
   std::vector<double> row(n);
-  for (int q = 0; q < tables_.points(); ++q) {
+  for (int q = 0; q < points_; ++q) {
     const double w = tables_.weight(cell, q);
     const double* psi = tables_.mode(cell, q);
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < tables_.dimension(); ++i)
       for (int a = 0; a < nodes; ++a) {
         double sum = 0;
         for (int J = 0; J < 3; ++J) sum += cofactor_[q][3 * i + J] * G_[(3 * q + J) * padded + a];
@@ -219,11 +231,11 @@ void ThreeField::add_volumetric_stiffness(int cell, const Material& material, do
 }
 
 void ThreeField::set_mode_stiffness(int cell, const Material& material, double* S) const {
-  const int modes = tables_.modes();
+  const int modes = tables_.modes(cell);
   mfem::DenseMatrix C(modes), MC(modes), stiffness(S, modes, modes);
   const mfem::DenseMatrix mass_inverse(const_cast<double*>(tables_.mode_mass_inverse(cell)), modes, modes);
   C = 0.0;
-  for (int q = 0; q < tables_.points(); ++q) {
+  for (int q = 0; q < points_; ++q) {
     const double weighted = tables_.weight(cell, q) * material.volumetric(D_[q]).d2U;
     const double* psi = tables_.mode(cell, q);
     for (int l = 0; l < modes; ++l)
@@ -234,12 +246,12 @@ void ThreeField::set_mode_stiffness(int cell, const Material& material, double* 
 }
 
 void ThreeField::add_mass(int cell, double density, double* M) const {
-  const int nodes = tables_.nodes(), padded = tables_.padded(), points = tables_.points();
+  const int nodes = tables_.nodes(cell), padded = tables_.padded(cell), points = tables_.points(cell);
   std::vector<double> N(points * padded), weighted(points * padded), block(nodes * padded);
   for (int q = 0; q < points; ++q)
     for (int a = 0; a < padded; ++a) {
-      N[q * padded + a] = tables_.shape(q)[a];
-      weighted[q * padded + a] = density * tables_.weight(cell, q) * tables_.shape(q)[a];
+      N[q * padded + a] = tables_.shape(cell, q)[a];
+      weighted[q * padded + a] = density * tables_.weight(cell, q) * tables_.shape(cell, q)[a];
     }
   outer_product_sum(nodes, padded, points, N.data(), weighted.data(), block.data());
   for (int a = 0; a < nodes; ++a)

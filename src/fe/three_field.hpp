@@ -8,6 +8,9 @@
 ///   r = int (P_iso + p cof F) : Grad N dV
 ///   K = int Grad N : (A_iso + p d cof F / dF) : Grad N dV + B^T M^-1 [int U''(D) psi psi^T] M^-1 B,
 ///   B_l = int psi_l cof F : Grad N dV,   M = int psi psi^T dV.
+///
+/// Where the displacement is alone (CellTables::modes == 0), Pi is the identity: D = J and p = U'(J) at each point.
+/// Plane strain has two components of displacement and the same tensors, with F_33 = 1.
 #pragma once
 
 #include <vector>
@@ -18,7 +21,7 @@
 
 namespace titin {
 
-/// Scratch and results of the kernels at the points of one cell. Element vectors are [3][nodes], component first.
+/// Scratch and results of the kernels at the points of one cell. Element vectors are [components][nodes].
 class ThreeField {
  public:
   explicit ThreeField(const CellTables& tables);
@@ -30,7 +33,7 @@ class ThreeField {
 
   /// Adds the internal forces to r. `in` carries time, dt and rate; the points are filled in here.
   void add_forces(int cell, const Material& material, PointInput in, double* r);
-  /// Adds the tangent to K [3 nodes][3 nodes], row-major.
+  /// Adds the tangent to K [values][values], row-major.
   void add_tangent(int cell, const Material& material, PointInput in, double* K);
 
   /// The same in parts, for kernels over several cells; good until the next call.
@@ -39,7 +42,7 @@ class ThreeField {
   /// Adds density * N_a N_b dV, one component: [nodes][nodes].
   void add_mass(int cell, double density, double* M) const;
 
-  /// The points as a batch for a material; current after deform.
+  /// The points as a batch for a material; current after deform. The vectors below hold in.n of them, or more.
   PointInput points(PointInput in) const;
   const std::vector<Mat3>& F() const { return F_; }
   const std::vector<Mat3>& F_old() const { return F_old_; }
@@ -54,9 +57,10 @@ class ThreeField {
   /// M^-1 [int U''(D) psi psi^T dV] M^-1: the stiffness of the volume modes.
   void set_mode_stiffness(int cell, const Material& material, double* S) const;
   void add_volumetric_stiffness(int cell, const Material& material, double* K);
-  void add_block(int i, int k, double* K);
+  void add_block(int cell, int i, int k, double* K);
 
   const CellTables& tables_;
+  int points_ = 0;  // of the cell that was deformed last
   int bad_point_ = -1;
   std::vector<double> G_;  // [q][J][a]
   std::vector<double> H_;  // [q][J][b]: w A G

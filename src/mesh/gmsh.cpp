@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 #include <vector>
 
@@ -18,25 +19,50 @@ constexpr const char* how_to_save = "save it from Gmsh as \"Version 2 ASCII\" (g
 constexpr const char* save_again = "the file is damaged: save it again";
 constexpr long most_entries = 1'000'000'000;  // nodes or elements; a larger number is no number of them
 
-enum class Shape { edge, triangle, quadrangle, hexahedron, tetrahedron, prism, pyramid };
-/// Kinds of elements by their number in the file; a point counts as an edge.
+enum class Shape { point, edge, triangle, quadrangle, tetrahedron, prism, hexahedron, pyramid };
+
+using Corners = std::vector<int>;
+/// What a shape is bounded by: the corners of its sides in Gmsh's numbering.
+struct Solid {
+  int dimension, corners;
+  std::vector<Corners> sides;
+};
+const Solid& solid(Shape shape) {
+  static const Solid all[] = {
+      {0, 1, {}},
+      {1, 2, {}},
+      {2, 3, {{0, 1}, {1, 2}, {2, 0}}},
+      {2, 4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+      {3, 4, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}},
+      {3, 6, {{0, 1, 2}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
+      {3, 8, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+      {3, 5, {}},  // refused
+  };
+  return all[static_cast<int>(shape)];
+}
+
+/// Kinds of elements by their number in the file; of any order they begin with the corners.
 struct ElementKind {
   int type, nodes;
   Shape shape;
 };
 constexpr ElementKind kinds[] = {
-    {15, 1, Shape::edge},        {1, 2, Shape::edge},          {8, 3, Shape::edge},         {26, 4, Shape::edge},
-    {2, 3, Shape::triangle},     {9, 6, Shape::triangle},      {3, 4, Shape::quadrangle},   {10, 9, Shape::quadrangle},
-    {36, 16, Shape::quadrangle}, {5, 8, Shape::hexahedron},    {12, 27, Shape::hexahedron}, {92, 64, Shape::hexahedron},
-    {4, 4, Shape::tetrahedron},  {11, 10, Shape::tetrahedron}, {6, 6, Shape::prism},        {13, 18, Shape::prism},
-    {7, 5, Shape::pyramid},      {14, 14, Shape::pyramid},
+    {15, 1, Shape::point},        {1, 2, Shape::edge},         {8, 3, Shape::edge},        {26, 4, Shape::edge},
+    {2, 3, Shape::triangle},      {9, 6, Shape::triangle},     {21, 10, Shape::triangle},  {3, 4, Shape::quadrangle},
+    {10, 9, Shape::quadrangle},   {36, 16, Shape::quadrangle}, {4, 4, Shape::tetrahedron}, {11, 10, Shape::tetrahedron},
+    {29, 20, Shape::tetrahedron}, {6, 6, Shape::prism},        {13, 18, Shape::prism},     {5, 8, Shape::hexahedron},
+    {12, 27, Shape::hexahedron},  {92, 64, Shape::hexahedron}, {7, 5, Shape::pyramid},     {14, 14, Shape::pyramid},
 };
-using Corners = std::array<int, 4>;
-constexpr Corners sides_of_hexahedron[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
+/// Corners in increasing order, the last repeated.
 struct Side {
-  Corners corners;  // sorted
+  std::array<int, 4> corners;
+  long line;
+};
+
+struct Element {
+  Shape shape;
+  std::array<int, 8> corners;
   long line;
 };
 
@@ -58,7 +84,7 @@ class Scan {
           read_nodes();
         else if (trim(line_) == "$Elements")
           read_elements();
-      if (cell_sides_.empty()) throw Problem{"holds no hexahedra", "mesh the volume, and save it too"};
+      take_cells();
       check_sides();
       if (in_group_ && in_no_group_)
         throw Problem{
@@ -128,8 +154,7 @@ class Scan {
       const auto first = line_.find('"'), last = line_.rfind('"');
       if (first == std::string::npos || last <= first) fail("has no name in quotation marks");
       const std::string name = line_.substr(first + 1, last - first - 1);
-      if (dimension == 3) file_.volumes[name] = tag;
-      if (dimension == 2) file_.surfaces[name] = tag;
+      if (dimension >= 0 && dimension <= 3) names_[dimension][name] = tag;
     }
   }
 
@@ -152,35 +177,51 @@ class Scan {
       if (tags < 0 || 3u + tags + kind.nodes != words_.size())
         fail(fmt::format("an element of type {} with {} has {}", kind.type, count(tags, "tag"),
                          count(3.0 + tags + kind.nodes, "number")));
-      const std::vector<int> corners = read_corners(3 + tags);
-      if (kind.shape == Shape::hexahedron)
-        for (const Corners& side : sides_of_hexahedron) add_side(cell_sides_, corners, side);
-      else if (kind.shape != Shape::edge)
-        add_side(surfaces_, corners, {0, 1, 2, kind.shape == Shape::quadrangle ? 3 : 2});
+      elements_.push_back({kind.shape, read_corners(3 + tags, solid(kind.shape).corners), number_});
       long& first_line = tags > 0 && number<int>(3) > 0 ? in_group_ : in_no_group_;
       if (first_line == 0) first_line = number_;
     }
   }
 
-  /// The first eight nodes of an element: in any order of elements they begin with the corners.
-  std::vector<int> read_corners(std::size_t first) {
-    std::vector<int> corners;
+  /// Looks at all nodes of an element and returns the first.
+  std::array<int, 8> read_corners(std::size_t first, int size) {
+    std::array<int, 8> corners{};
     for (std::size_t i = first; i < words_.size(); ++i) {
       const auto node = nodes_.find(number<int>(i));
       if (node == nodes_.end()) fail(fmt::format("there is no node {}", words_[i]));
-      if (corners.size() < 8) corners.push_back(node->second);
+      if (i < first + size) corners[i - first] = node->second;
     }
-    auto sorted = corners;
+    Corners sorted(corners.begin(), corners.begin() + size);
     std::sort(sorted.begin(), sorted.end());
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
       fail("an element has a node twice", "use whole elements");
     return corners;
   }
 
-  void add_side(std::vector<Side>& sides, const std::vector<int>& nodes, const Corners& corners) {
-    Side side{{}, number_};
-    std::transform(corners.begin(), corners.end(), side.corners.begin(), [&](int c) { return nodes[c]; });
-    std::sort(side.corners.begin(), side.corners.end());
+  /// Cells are the elements of the highest dimension, in space or in the plane; boundaries those of one less.
+  void take_cells() {
+    int dimension = 0;
+    for (const Element& element : elements_) dimension = std::max(dimension, solid(element.shape).dimension);
+    if (dimension < 2) throw Problem{"holds no cells", "mesh the volume (a plane body: its surface), and save it too"};
+    file_.volumes = names_[dimension];
+    file_.surfaces = names_[dimension - 1];
+    for (const Element& element : elements_) {
+      const Solid& shape = solid(element.shape);
+      Corners all(shape.corners);
+      std::iota(all.begin(), all.end(), 0);
+      if (shape.dimension == dimension)
+        for (const Corners& side : shape.sides) add_side(cell_sides_, element, side);
+      if (shape.dimension == dimension - 1) add_side(surfaces_, element, all);
+    }
+  }
+
+  static void add_side(std::vector<Side>& sides, const Element& element, const Corners& corners) {
+    Corners nodes;
+    for (int corner : corners) nodes.push_back(element.corners[corner]);
+    std::sort(nodes.begin(), nodes.end());
+    Side side{{}, element.line};
+    side.corners.fill(nodes.back());
+    std::copy(nodes.begin(), nodes.end(), side.corners.begin());
     sides.push_back(side);
   }
 
@@ -204,24 +245,22 @@ class Scan {
   const ElementKind& kind_of(int type) const {
     for (const ElementKind& kind : kinds) {
       if (kind.type != type) continue;
-      if (kind.shape > Shape::hexahedron)
-        throw Problem{fmt::format("has cells that are not hexahedra ({}, line {})",
-                                  kind.shape == Shape::tetrahedron ? "tetrahedra"
-                                  : kind.shape == Shape::prism     ? "prisms"
-                                                                   : "pyramids",
-                                  number_),
-                      "mesh it with hexahedra: in Gmsh transfinite volumes, or Mesh.SubdivisionAlgorithm = 2"};
+      if (kind.shape == Shape::pyramid)
+        throw Problem{fmt::format("has pyramids (line {}), and there is no element for them", number_),
+                      "mesh it with hexahedra, wedges or tetrahedra"};
       return kind;
     }
-    fail(fmt::format("elements of type {} are not read", type), "use hexahedra of order 1, 2 or 3");
+    fail(fmt::format("elements of type {} are not read", type), "use elements of order 1, 2 or 3");
   }
 
   std::istream& in_;
   std::string line_;
   std::vector<std::string_view> words_;
-  long number_ = 0;                      // of line_
-  long in_group_ = 0, in_no_group_ = 0;  // lines of the first elements with and without a physical group
-  std::unordered_map<int, int> nodes_;   // number in the file -> place in it
+  long number_ = 0;                                  // of line_
+  long in_group_ = 0, in_no_group_ = 0;              // lines of the first elements with and without a physical group
+  std::unordered_map<int, int> nodes_;               // number in the file -> place in it
+  std::array<std::map<std::string, int>, 4> names_;  // by dimension
+  std::vector<Element> elements_;
   std::vector<Side> cell_sides_, surfaces_;
   GmshFile file_;
 };

@@ -8,11 +8,12 @@
 namespace titin {
 
 struct GmshFile {
-  std::map<std::string, int> volumes, surfaces;  ///< physical names -> tags
+  std::map<std::string, int> volumes, surfaces;  ///< physical names of cells and boundaries -> tags
   std::string problem, advice;                   ///< why it cannot be used, "line 12: ..."; empty when it can
 };
 
-/// Looks through the whole file: after this, MFEM can read it. All cells must be hexahedra, of any order.
+/// Looks through the whole file: after this, MFEM can read it. Cells are hexahedra, tetrahedra and wedges or,
+/// of a plane body, quadrilaterals and triangles, of order 1 to 3.
 GmshFile scan_gmsh(std::istream& in);
 
 }  // namespace titin

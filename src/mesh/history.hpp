@@ -8,9 +8,11 @@ namespace titin {
 
 class History {
  public:
-  /// `row_size` [cells]: doubles a point of each cell needs; the same number of points in every cell.
-  History(const std::vector<int>& row_size, int points) : first_(1, 0) {
-    for (int size : row_size) first_.push_back(first_.back() + std::size_t(size) * points);
+  History() = default;
+  /// `row_size` [cells]: doubles that a point of each cell needs; `points` [cells]: how many it has.
+  History(const std::vector<int>& row_size, const std::vector<int>& points) : first_(1, 0) {
+    for (std::size_t cell = 0; cell < points.size(); ++cell)
+      first_.push_back(first_.back() + std::size_t(row_size[cell]) * points[cell]);
     old_.resize(first_.back());
     now_.resize(first_.back());
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 
 #include "base/parallel.hpp"
 #include "base/words.hpp"
@@ -41,18 +42,29 @@ void name_the_rest(const mfem::Array<int>& attributes, const std::string& kind, 
   std::erase_if(names, [&](const auto& entry) { return attributes.Find(entry.second) < 0; });
 }
 
+/// Boundaries by MFEM's numbering.
 mfem::Mesh make_box(const MeshConfig& config, NamedMesh& named) {
-  const auto& [a, b, c] = config.box;
-  const auto& [nx, ny, nz] = config.cells;
+  using mfem::Element;
+  const auto& edge = config.box;
+  const auto& n = config.cells;
+  const bool tensor = config.kind == BoxCells::tensor;
   named.regions = {{"body", 1}};
-  named.boundaries = {{"z-", 1}, {"y-", 2}, {"x+", 3}, {"y+", 4}, {"x-", 5}, {"z+", 6}};  // MFEM's numbering
-  return mfem::Mesh::MakeCartesian3D(nx, ny, nz, mfem::Element::HEXAHEDRON, a, b, c, true);
+  if (edge.size() == 2) {
+    named.boundaries = {{"y-", 1}, {"x+", 2}, {"y+", 3}, {"x-", 4}};
+    const auto type = tensor ? Element::QUADRILATERAL : Element::TRIANGLE;
+    return mfem::Mesh::MakeCartesian2D(n[0], n[1], type, true, edge[0], edge[1]);
+  }
+  named.boundaries = {{"z-", 1}, {"y-", 2}, {"x+", 3}, {"y+", 4}, {"x-", 5}, {"z+", 6}};
+  const auto type = tensor                               ? Element::HEXAHEDRON
+                    : config.kind == BoxCells::simplices ? Element::TETRAHEDRON
+                                                         : Element::WEDGE;
+  return mfem::Mesh::MakeCartesian3D(n[0], n[1], n[2], type, edge[0], edge[1], edge[2]);
 }
 
 void scale(mfem::Mesh& mesh, double factor) {
   if (mesh.GetNodes()) *mesh.GetNodes() *= factor;
   for (int i = 0; i < mesh.GetNV(); ++i)
-    for (int d = 0; d < 3; ++d) mesh.GetVertex(i)[d] *= factor;
+    for (int d = 0; d < mesh.SpaceDimension(); ++d) mesh.GetVertex(i)[d] *= factor;
 }
 
 /// An empty mesh when the file is no good, which is then reported.
@@ -64,6 +76,11 @@ mfem::Mesh load(const MeshConfig& config, Section& section, NamedMesh& named) {
   if (file.problem.empty()) try {
       const Silence silence;
       mfem::Mesh mesh(path.c_str(), 1, 1, true);
+      if (mesh.SpaceDimension() != mesh.Dimension()) {
+        section.error("file", fmt::format("file {} holds a surface in space", in_quotes(config.file)),
+                      "put a plane body in the plane z = 0, or mesh the volume");
+        return {};
+      }
       scale(mesh, config.unit);
       name_the_rest(mesh.attributes, "region", file.volumes);
       name_the_rest(mesh.bdr_attributes, "boundary", file.surfaces);
@@ -79,18 +96,42 @@ mfem::Mesh load(const MeshConfig& config, Section& section, NamedMesh& named) {
   return {};
 }
 
+/// Do edges and cells of a box fit together?
+bool is_a_box(const MeshConfig& config, Section& section) {
+  if (config.box.size() < 2 || config.box.size() > 3)
+    section.error("box", fmt::format("has {}", count(double(config.box.size()), "number")),
+                  "give 3, or 2 for a plane body");
+  else if (*std::min_element(config.box.begin(), config.box.end()) <= 0)
+    section.error("box", "the edges of a box must be longer than 0");
+  else if (config.cells.size() != config.box.size())
+    section.error("cells",
+                  fmt::format("has {} for a box of {}", count(double(config.cells.size()), "number"),
+                              count(double(config.box.size()), "edge")),
+                  "give one for each edge");
+  else if (config.kind == BoxCells::wedges && config.box.size() == 2)
+    section.error("kind", "a plane body has no wedges", "take tensor or simplices");
+  else
+    return true;
+  return false;
+}
+
 /// Does the scene say one mesh, and not none or two?
 bool names_one_mesh(const MeshConfig& config, Section& section) {
-  const bool has_box = config.box != std::array<double, 3>{0, 0, 0}, has_file = !config.file.empty();
+  const bool has_box = !config.box.empty(), has_file = !config.file.empty();
   if (!has_box && !has_file && (section.has("box") || section.has("file"))) return false;  // reported already
   if (has_box == has_file)
     section.error("", has_box ? "a mesh is either a box or a file, not both" : "no mesh",
                   "give mesh.box (with mesh.cells) or mesh.file");
-  else if (has_box && *std::min_element(config.box.begin(), config.box.end()) <= 0)
-    section.error("box", "the edges of a box must be longer than 0");
   else
-    return true;
+    return !has_box || is_a_box(config, section);
   return false;
+}
+
+double cells_of_box(const MeshConfig& config) {
+  const int parts = config.kind == BoxCells::tensor                                ? 1
+                    : config.kind == BoxCells::simplices && config.box.size() == 3 ? 6
+                                                                                   : 2;
+  return std::accumulate(config.cells.begin(), config.cells.end(), double(parts), std::multiplies<>());
 }
 
 /// Are there neither too many cells, after `growth` times as many come of refinement, nor too few?
@@ -108,9 +149,9 @@ bool has_fit_size(double cells, double growth, std::string_view key, Section& se
 
 /// Cells of this rank that have no positive volume somewhere.
 int inverted_cells(mfem::ParMesh& mesh) {
-  const auto& rule = mfem::IntRules.Get(mfem::Geometry::CUBE, 5);
   int inverted = 0;
   for (int cell = 0; cell < mesh.GetNE(); ++cell) {
+    const auto& rule = mfem::IntRules.Get(mesh.GetElementGeometry(cell), 5);
     auto* map = mesh.GetElementTransformation(cell);
     bool positive = true;
     for (int q = 0; q < rule.GetNPoints(); ++q) {
@@ -128,23 +169,32 @@ void MeshConfig::bind(Section& s) {
   s.read("box", box,
          {.unit = "m",
           .range = non_negative,
-          .doc = "edge lengths of a box; boundaries x-, x+, y-, y+, z-, z+, region body"});
-  s.read("cells", cells, {.range = {.min = 1, .max = 1e4}, .doc = "hexahedra of the box along x, y, z"});
-  s.read("file", file, {.doc = "Gmsh 2.2 mesh of hexahedra; its physical names name regions and boundaries"});
+          .doc = "edge lengths of a box, two for a plane one; boundaries x-, x+, y-, y+, z-, z+, region body"});
+  if (cells.empty()) cells.assign(box.size(), 1);
+  s.read("cells", cells, {.range = {.min = 1, .max = 1e4}, .doc = "cells of the box along x, y, z (default: one)"});
+  s.choose("kind", kind,
+           {{"tensor", BoxCells::tensor}, {"simplices", BoxCells::simplices}, {"wedges", BoxCells::wedges}},
+           {.doc = "cells of the box: hexahedra or quadrilaterals; each cut into 6 tetrahedra or 2 triangles; or into "
+                   "2 wedges"});
+  s.read("file", file, {.doc = "Gmsh 2.2 mesh; its physical names name regions and boundaries"});
   s.read("unit", unit, {.unit = "m", .range = positive, .doc = "what a length of 1 in the file is"});
+  s.read("thickness", thickness,
+         {.unit = "m", .range = positive, .doc = "of a plane body, which keeps it (plane strain)"});
   s.read("refine", refine,
-         {.range = {.min = 0, .max = max_refinements}, .doc = "uniform refinements (each 8 times the cells)"});
+         {.range = {.min = 0, .max = max_refinements},
+          .doc = "uniform refinements (each 8 times the cells, 4 times in the plane)"});
 }
 
 NamedMesh NamedMesh::read(const MeshConfig& config, Section section) {
   NamedMesh named;
   if (!names_one_mesh(config, section)) return named;
   const bool has_box = config.file.empty();
-  const double growth = std::pow(8.0, config.refine);
-  const double in_box = 1.0 * config.cells[0] * config.cells[1] * config.cells[2];
-  if (has_box && !has_fit_size(in_box, growth, "cells", section)) return named;
+  const auto growth = [&](std::size_t dimension) { return std::pow(2.0, dimension * config.refine); };
+  if (has_box && !has_fit_size(cells_of_box(config), growth(config.box.size()), "cells", section)) return named;
   mfem::Mesh serial = has_box ? make_box(config, named) : load(config, section, named);
-  if (serial.GetNE() == 0 || (!has_box && !has_fit_size(serial.GetNE(), growth, "file", section))) return named;
+  if (serial.GetNE() == 0) return named;
+  if (!has_box && !has_fit_size(serial.GetNE(), growth(serial.Dimension()), "file", section)) return named;
+  if (serial.Dimension() == 2) named.thickness = config.thickness;
   for (int i = 0; i < config.refine; ++i) serial.UniformRefinement();
   auto mesh = std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, serial);
   if (const long inverted = sum(static_cast<long>(inverted_cells(*mesh))); inverted > 0)

@@ -22,7 +22,7 @@ struct SceneConfig {
   NamedMesh bind(Section root) {
     root.read("title", title, {.doc = "one line that says what happens"});
     root.choose("model", formulation, {{"muscle", Formulation::muscle}}, {.required = true, .doc = "the formulation"});
-    Section mesh_section = root.section("mesh", "a box of hexahedra, or a file");
+    Section mesh_section = root.section("mesh", "a box, or a file");
     mesh.bind(mesh_section);
     NamedMesh named = root.describing() ? NamedMesh{} : NamedMesh::read(mesh, mesh_section);
     Section time = root.section("time", "from 0 to the end by steps");

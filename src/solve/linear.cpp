@@ -14,7 +14,7 @@ constexpr int mumps_extra_memory =
 /// PETSc's view of a true-dof vector; no copy.
 struct View {
   View(mfem::Vector& v) {
-    check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 3, v.Size(), PETSC_DECIDE, v.GetData(), &vec));
+    check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 1, v.Size(), PETSC_DECIDE, v.GetData(), &vec));
   }
   ~View() { VecDestroy(&vec); }
   Vec vec = nullptr;

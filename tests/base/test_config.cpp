@@ -18,7 +18,7 @@ struct Scene {
   int cuts = 8;
   bool fields = true;
   std::array<double, 3> size{0.03, 0.01, 0.01};
-  std::array<int, 3> cells{1, 1, 1};
+  std::vector<int> cells{1, 1, 1};
   std::vector<double> weights;
   std::vector<std::string> markers;
   std::map<std::string, Table> boundary;

@@ -19,7 +19,7 @@ void deformation(const mfem::Vector& x, mfem::Vector& u) {
 }
 
 void add_inertia(MuscleSystem& system, const ThreeField& kernel, int cell, std::vector<double>& K) {
-  const int nodes = system.tables().nodes();
+  const int nodes = system.tables().nodes(0);
   const double dt = system.step().dt;
   std::vector<double> M(nodes * nodes);
   kernel.add_mass(cell, system.material(cell).density() / (dt * dt), M.data());
@@ -37,7 +37,7 @@ Mat sum_of_cell_matrices(MuscleSystem& system, const mfem::Vector& u) {
   check(MatSetOption(K, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   ThreeField kernel(system.tables());
   mfem::Array<int> dofs;
-  const int n = 3 * system.tables().nodes();
+  const int n = system.tables().values(0);
   const std::vector<double> u_cells = system.cell_values(u), old_cells = system.cell_values(system.step().u_old);
   for (int cell = 0; cell < space.GetNE(); ++cell) {
     std::vector<double> values(n * n);

@@ -152,10 +152,10 @@ TEST(GmshScan, SaysWhatAFileIsInstead) {
   EXPECT_EQ(problem("$MeshFormat", "solid cube"), "is not a Gmsh mesh: it does not begin with $MeshFormat");
   EXPECT_EQ(problem("2.2 0 8", "4.1 0 8"), "is a Gmsh mesh of version 4.1, and only 2.2 is read");
   EXPECT_EQ(problem("2.2 0 8", "2.2 1 8"), "is a binary Gmsh mesh, and only text is read");
-  EXPECT_EQ(problem("11 5 2 5 5 1 2 3 4 5 6 7 8", "11 4 2 5 5 1 2 3 5"),
-            "has cells that are not hexahedra (tetrahedra, line 39)");
+  EXPECT_EQ(problem("11 5 2 5 5 1 2 3 4 5 6 7 8", "11 7 2 5 5 1 2 3 4 5"),
+            "has pyramids (line 39), and there is no element for them");
   std::istringstream surface("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n0\n");
-  EXPECT_EQ(scan_gmsh(surface).problem, "holds no hexahedra");
+  EXPECT_EQ(scan_gmsh(surface).problem, "holds no cells");
   std::istringstream empty("");
   EXPECT_EQ(scan_gmsh(empty).problem, "is not a Gmsh mesh: it does not begin with $MeshFormat");
 }
