@@ -34,7 +34,7 @@ class HexahedronMatrices : public CellMatrices {
   HexahedronFiller<double, n, q, symmetric> filler_;
   LineTables<double, n, q> line_;
   double product_[4][q][n * n];  // of two polynomials at the points
-  int native_[nodes];            // MFEM's place of a node in lexicographic order
+  int lexicographic_[nodes];     // place of MFEM's node in lexicographic order
   std::unique_ptr<Batch> batch_ = std::make_unique<Batch>();
   std::vector<V> coupling_, stiff_coupling_;  // B, S B: [mode][component][node]
   V moduli_[9][points];                       // A_iM,kN of one (i, k) at [3 M + N]
@@ -52,7 +52,7 @@ HexahedronMatrices<n, q, symmetric>::HexahedronMatrices(const mfem::ParFiniteEle
       stiff_coupling_(modes * size),
       K_(std::size_t(lanes) * size * size) {
   const auto& order = dynamic_cast<const mfem::NodalFiniteElement&>(*space.GetFE(0)).GetLexicographicOrdering();
-  for (int a = 0; a < nodes; ++a) native_[a] = order[a];
+  for (int a = 0; a < nodes; ++a) lexicographic_[order[a]] = a;
   for (int p = 0; p < q; ++p)
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < n; ++b)
@@ -180,18 +180,21 @@ void HexahedronMatrices<n, q, symmetric>::add_volume(int i, int k) {
   }
 }
 
+/// The block, and its transpose on the other side of the diagonal; a row of each lane's matrix at a time.
 template <int n, int q, bool symmetric>
 void HexahedronMatrices<n, q, symmetric>::store(int i, int k) {
-  const bool mirror = symmetric && i != k;
-  for (int a = 0; a < nodes; ++a)
-    for (int b = 0; b < nodes; ++b) {
-      const std::size_t row = i * nodes + native_[a], column = k * nodes + native_[b];
-      const V entries = block_[a * nodes + b];
-      for (int lane = 0; lane < lanes; ++lane) {
-        matrix(lane)[row * size + column] = entries[lane];
-        if (mirror) matrix(lane)[column * size + row] = entries[lane];
+  const auto store_block = [this](int i, int k, int row_step, int column_step) {
+    for (int a = 0; a < nodes; ++a) {
+      double* row = &K_[(std::size_t(i) * nodes + a) * size + k * nodes];
+      const V* entries = &block_[lexicographic_[a] * row_step];
+      for (int b = 0; b < nodes; ++b) {
+        const V entry = entries[lexicographic_[b] * column_step];
+        for (int lane = 0; lane < lanes; ++lane) row[std::size_t(lane) * size * size + b] = entry[lane];
       }
     }
+  };
+  store_block(i, k, nodes, 1);
+  if (symmetric && i != k) store_block(k, i, 1, nodes);
 }
 
 }  // namespace titin

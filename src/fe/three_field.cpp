@@ -46,15 +46,15 @@ void outer_product_sum(int nodes, int padded, int terms, const double* G, const 
   kernels[padded / pack - 1](nodes, terms, G, H, C);
 }
 
-/// In plane strain F_33 = 1.
+/// In plane strain F_33 = 1. Three sums side by side: one alone waits for each of its additions.
 Mat3 deformation_gradient(const double* G, int dimension, int nodes, int padded, const double* u) {
   Mat3 F = identity;
-  for (int i = 0; i < dimension; ++i)
-    for (int J = 0; J < 3; ++J) {
-      double sum = 0;
-      for (int a = 0; a < nodes; ++a) sum += u[i * nodes + a] * G[J * padded + a];
-      F[3 * i + J] += sum;
-    }
+  for (int i = 0; i < dimension; ++i) {
+    Vec3 row{};
+    for (int a = 0; a < nodes; ++a)
+      for (int J = 0; J < 3; ++J) row[J] += u[i * nodes + a] * G[J * padded + a];
+    for (int J = 0; J < 3; ++J) F[3 * i + J] += row[J];
+  }
   return F;
 }
 
