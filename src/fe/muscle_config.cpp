@@ -57,6 +57,12 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
               boundary.bind(s, mesh);
               boundaries.push_back(boundary);
             });
+  Section initial = root.section("initial", "the motion at the start: that of a rigid body");
+  this->initial.bind(initial);
+  Section time = root.section("time");
+  integrator.bind(time);
+  if (inertia == Inertia::quasi_static && time.has("scheme"))
+    time.error("scheme", "nothing moves by inertia here", "drop it, or set muscle.inertia = \"dynamic\"");
   Section body = root.section("body", "forces per mass on everything");
   body.read("acceleration", body_acceleration, {.unit = "m/s^2", .doc = "body force per mass, e.g. gravity"});
   body.read("scale", body_scale, {.doc = "factor of the acceleration, constant or in time"});

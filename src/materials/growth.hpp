@@ -54,6 +54,7 @@ class GrownMaterial final : public Material {
   void term_energy(int term, const PointInput& in, double* W) const override;
   void potential(const PointInput& in, double* W) const override;
   /// Of the elastic part, which is what the laws see.
+  std::vector<double> kinks() const override { return inside_->kinks(); }
   void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const override;
   Volumetric volumetric(double ratio) const override;
 

@@ -25,6 +25,12 @@ struct PointInput {
   double time = 0;              ///< t_n+1 [s]: time curves (activation) are taken here
   double dt = 0;                ///< [s]; a rate needs dt > 0
   FibreRate rate = FibreRate::none;
+  /// Which terms: those whose stress derives from energy that they store (without memory), or all the others.
+  enum class Part { all, stored, rest } part = Part::all;
+  // Where the rate of fibres is not this step's: what it is taken from.
+  const Mat3* F_rate_old = nullptr;    ///< [n] instead of F_old, rate_dt before the end; null: F_old and dt
+  const Mat3* F_rate = nullptr;        ///< [n] instead of F, when the rate is known before the step; null: F
+  double rate_dt = 0;                  ///< [s] with F_rate_old
   const Vec3* second_fibre = nullptr;  ///< [n] of the second family; null: the material's own
   const double* history = nullptr;     ///< [n][history_size] at t_n; null: points at rest until now
   double* new_history = nullptr;       ///< the same at t_n+1, written by `stress`; may be null
@@ -63,6 +69,9 @@ class Material {
   virtual void potential(const PointInput& in, double* W) const = 0;
   /// Output of fibre points: stretch |F a0|, its rate [1/s] by the rate's own definition, and activation (0 without).
   virtual void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const = 0;
+
+  /// Times at which what is given to the material (activation) has a kink.
+  virtual std::vector<double> kinks() const { return {}; }
 
   /// Doubles of history that a point carries from step to step (viscosity, damage); what they are is the material's
   /// affair.

@@ -29,6 +29,7 @@ class MemoryMaterial final : public Material {
   void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const override {
     elastic_.fibre_state(in, stretch, rate, activation);
   }
+  std::vector<double> kinks() const override { return elastic_.kinks(); }
   Volumetric volumetric(double ratio) const override { return elastic_.volumetric(ratio); }
 
   int history_size() const override { return history_size_; }

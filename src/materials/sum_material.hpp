@@ -48,11 +48,14 @@ class SumMaterial final : public Material {
   void potential(const PointInput& in, double* W) const override;
   void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const override;
   Volumetric volumetric(double ratio) const override;
+  std::vector<double> kinks() const override;
 
  private:
+  std::span<const WeightedTerm> terms(PointInput::Part part) const;
   void evaluate(const PointInput& in, std::span<const WeightedTerm> terms, Mat3* P, Mat9* A) const;
 
   Parts parts_;
+  std::vector<WeightedTerm> stored_, rest_;
   std::vector<TermInfo> infos_;
   InvariantSet used_;
 };

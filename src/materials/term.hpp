@@ -15,6 +15,7 @@
 #include <array>
 #include <concepts>
 #include <span>
+#include <vector>
 
 #include "materials/invariants.hpp"
 #include "math/dual.hpp"
@@ -61,6 +62,7 @@ class Term {
     add_energy(points, weight, sum);
   }
   virtual double activation(double /*time*/) const { return 0; }
+  virtual std::vector<double> kinks() const { return {}; }  ///< times at which its activation has a kink
 };
 
 /// What an energy is a function of: I1 - 3, I2 - 3, J - 1, I4 - 1, I5 - 1, I6 - 1, I8 - a0 . b0.
@@ -187,6 +189,12 @@ class ForceTerm final : public Term {
     else
       return 0;
   }
+  std::vector<double> kinks() const override {
+    if constexpr (requires { law_.activation.kinks(); })
+      return law_.activation.kinks();
+    else
+      return {};
+  }
 
  private:
   static constexpr int M = static_cast<int>(Law::uses.size());
@@ -237,6 +245,12 @@ class FibreTerm final : public Term {
       return law_.activation(time);
     else
       return 0;
+  }
+  std::vector<double> kinks() const override {
+    if constexpr (requires { law_.activation.kinks(); })
+      return law_.activation.kinks();
+    else
+      return {};
   }
 
  private:

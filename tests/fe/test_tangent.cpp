@@ -43,7 +43,10 @@ struct Derivative {
     u_old *= 0.4;  // every fibre lengthens at a rate between two joints of the force-velocity curve
     mfem::Vector v_old = u;
     v_old *= 0.5;
-    system.step() = {0.05, 0.02, u_old, v_old};
+    Integrator integrator(model.system().config().integrator, u.Size());
+    integrator.start(u_old, v_old, v_old);
+    integrator.begin(0.02, {system.constraints().dofs(), u, v_old});
+    system.step() = StepState(integrator, 0.05);
     for (int dof : system.constraints().dofs()) w(dof) = 0;
   }
   mfem::Vector residual_at(double h) {
