@@ -33,12 +33,12 @@ mfem::Vector InitialMotion::at_dofs(mfem::ParFiniteElementSpace& space) const {
   return v;
 }
 
-mfem::Vector initial_acceleration(MuscleSystem& system, const mfem::Vector& residual) {
+mfem::Vector initial_acceleration(MuscleSystem& system, double thickness, const mfem::Vector& residual) {
   mfem::ParFiniteElementSpace& space = system.space();
   mfem::Vector density(space.GetParMesh()->attributes.Max());
   density = 0.0;
   for (int cell = 0; cell < space.GetNE(); ++cell)
-    density(space.GetParMesh()->GetAttribute(cell) - 1) = system.material(cell).density() * system.config().thickness;
+    density(space.GetParMesh()->GetAttribute(cell) - 1) = system.material(cell).density() * thickness;
   mfem::PWConstCoefficient of_region(density);
   mfem::ParBilinearForm form(&space);
   form.AddDomainIntegrator(new mfem::VectorMassIntegrator(of_region));

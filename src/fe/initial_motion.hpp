@@ -18,7 +18,8 @@ struct InitialMotion {
   mfem::Vector at_dofs(mfem::ParFiniteElementSpace& space) const;  ///< true dofs [m/s]
 };
 
-/// [m/s^2] at true dofs, from the residual at the start [N]. Collective.
-mfem::Vector initial_acceleration(MuscleSystem& system, const mfem::Vector& residual);
+/// [m/s^2] at true dofs, from the residual at the start [N]; `thickness` [m] of a plane body, 1 for solid ones.
+/// Collective.
+mfem::Vector initial_acceleration(MuscleSystem& system, double thickness, const mfem::Vector& residual);
 
 }  // namespace titin

@@ -40,7 +40,7 @@ void Muscle::start() {
   system_.accept_forces();
   const mfem::Vector v = config_.initial.at_dofs(space_);
   const bool accelerates = config_.inertia == Inertia::dynamic && uses_acceleration(config_.integrator);
-  integrator_.start(trial_, v, accelerates ? initial_acceleration(system_, R) : trial_);
+  integrator_.start(trial_, v, accelerates ? initial_acceleration(system_, mesh_.thickness, R) : trial_);
 }
 
 Newton& Muscle::newton() {
