@@ -75,6 +75,9 @@ void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
     std::vector<std::string> regions;
     s.read("regions", regions, {.doc = "regions of the mesh that are made of it (default: all)"});
     materials[name] = Material::read(s);
+    if (!materials[name]->fields().empty())
+      s.error("", "fibres and numbers that vary in space are not evaluated by this formulation yet",
+              "give a region and a material to each value");
     if (!s.describing() && !materials[name]->has_volumetric_law())
       logging::warning(
           fmt::format("{}: without a volumetric law the elements' pressure stays 0: displacements alone carry "

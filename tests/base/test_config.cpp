@@ -94,7 +94,7 @@ displacement = "1 cm"
   EXPECT_EQ(s.step, 0.025);
   EXPECT_EQ(s.cuts, 3);
   EXPECT_EQ(s.size, (std::array<double, 3>{0.03, 0.01, 0.01}));
-  EXPECT_EQ(s.cells, (std::array{8, 4, 4}));
+  EXPECT_EQ(s.cells, (std::vector{8, 4, 4}));
   EXPECT_EQ(s.fat, 0.1);
   EXPECT_FALSE(s.fields);
   EXPECT_EQ(s.weights, (std::vector<double>{1.0, 2.5}));
@@ -204,7 +204,7 @@ TEST(Config, TakesOverridesInTheGrammarOfTheFile) {
                         "kind=quasi-static", "boundary.x+.displacement.value=0, 6 mm",
                         "boundary.\"y-\".displacement=1 mm", "more.fat=10 %", "more.fields=false", "title=a=b"});
   EXPECT_EQ(s.step, 0.05);
-  EXPECT_EQ(s.cells, (std::array{2, 3, 4}));
+  EXPECT_EQ(s.cells, (std::vector{2, 3, 4}));
   EXPECT_EQ(s.size, (std::array<double, 3>{0.03, 0.01, 0.01}));
   EXPECT_EQ(s.kind, Kind::quasi_static);
   EXPECT_EQ(s.boundary.at("x+").value(), (std::vector<double>{0.0, 0.006}));
@@ -212,7 +212,7 @@ TEST(Config, TakesOverridesInTheGrammarOfTheFile) {
   EXPECT_EQ(s.fat, 0.1);
   EXPECT_FALSE(s.fields);
   EXPECT_EQ(s.title, "a=b");
-  EXPECT_EQ(read(time_table, {"mesh.cells=2,3,4"}).cells, (std::array{2, 3, 4}));
+  EXPECT_EQ(read(time_table, {"mesh.cells=2,3,4"}).cells, (std::vector{2, 3, 4}));
 }
 
 TEST(Config, BlamesTheCommandLine) {
