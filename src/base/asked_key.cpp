@@ -129,10 +129,6 @@ Numbers numbers(const AskedKey& asked, int size) {
     asked.complain("has " + count(all->size(), "number"), fmt::format("give {}", size));
     return std::nullopt;
   }
-  if (all->empty()) {
-    asked.complain("has no number", "give some, or drop the key");
-    return std::nullopt;
-  }
   if (!in_range(asked, *all)) return std::nullopt;
   return all;
 }
@@ -141,6 +137,7 @@ std::vector<int> whole_numbers(const AskedKey& asked, int size) {
   const Numbers all = numbers(asked, size);
   std::vector<int> whole;
   if (!all) return whole;
+  if (all->empty()) asked.complain("has no number", "give some, or drop the key");
   for (const double x : *all) {
     if (x != std::floor(x) || std::abs(x) > std::numeric_limits<int>::max()) {
       asked.complain(fmt::format("{} is not a whole number", x), fmt::format("write one, such as {}", std::round(x)));

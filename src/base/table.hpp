@@ -12,6 +12,8 @@ class Table {
   Table(std::vector<double> time, std::vector<double> value);
 
   double operator()(double t) const;
+  double slope_before(double t) const;  ///< of the piece that t ends or lies in; 0 outside the points
+  std::vector<double> kinks() const;    ///< times at which the slope changes
   bool is_constant() const { return value_.size() == 1; }
   const std::vector<double>& time() const { return time_; }
   const std::vector<double>& value() const { return value_; }

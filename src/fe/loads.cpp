@@ -70,6 +70,10 @@ void Constraints::set_values(double time, mfem::Vector& u) const {
   for (int i = 0; i < dofs_.Size(); ++i) u(dofs_[i]) = (*values_[i])(time);
 }
 
+void Constraints::set_rates(double time, mfem::Vector& v) const {
+  for (int i = 0; i < dofs_.Size(); ++i) v(dofs_[i]) = values_[i]->slope_before(time);
+}
+
 FaceLoads::FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, const CellElements& elements,
                      const mfem::ParFiniteElementSpace& space, int points)
     : dimension_(mesh.mesh->Dimension()), faces_of_cell_(space.GetNE()) {

@@ -34,6 +34,7 @@ class Constraints {
   const mfem::Array<int>& dofs() const { return dofs_; }  ///< true dofs, this rank, increasing
   bool is_constrained_local(int local_dof) const { return local_marker_[local_dof] != 0; }
   void set_values(double time, mfem::Vector& u) const;  ///< u_i = g_i(t) at dofs()
+  void set_rates(double time, mfem::Vector& v) const;   ///< v_i = g_i'(t), from before t
   /// True dofs of all components on a boundary: [component] -> dofs; its reaction is the sum of their residuals.
   const std::array<mfem::Array<int>, 3>& boundary_dofs(int boundary) const { return boundary_dofs_[boundary]; }
 

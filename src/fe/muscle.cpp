@@ -7,6 +7,12 @@
 #include "base/timers.hpp"
 
 namespace titin {
+namespace {
+
+/// Of the body's size: errors are not held against displacements that are smaller.
+constexpr double small_displacement = 1e-3;
+
+}  // namespace
 
 Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
     : mesh_(std::move(mesh)),
@@ -14,15 +20,27 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
       collection_(config_.elements.collection(mesh_.mesh->Dimension())),
       space_(mesh_.mesh.get(), collection_.get(), mesh_.mesh->Dimension(), mfem::Ordering::byVDIM),
       system_(config_, mesh_, space_),
+      integrator_(config_.integrator, space_.GetTrueVSize()),
       history_(system_),
       fields_(system_),
-      u_(space_.GetTrueVSize()),
-      v_(space_.GetTrueVSize()),
       trial_(space_.GetTrueVSize()) {
-  u_ = v_ = trial_ = 0.0;
-  mfem::Vector R(system_.size());
-  system_.residual(u_, R);
+  trial_ = 0.0;
+  mfem::Vector lower, upper;
+  mesh_.mesh->GetBoundingBox(lower, upper);
+  upper -= lower;
+  size_ = upper.Norml2();
+  prescribed_ = prescribed_rate_ = trial_;
+  start();
   follow(system_.step());
+}
+
+void Muscle::start() {
+  mfem::Vector R(system_.size());
+  system_.residual(trial_, R);
+  system_.accept_forces();
+  const mfem::Vector v = config_.initial.at_dofs(space_);
+  const bool accelerates = config_.inertia == Inertia::dynamic && uses_acceleration(config_.integrator);
+  integrator_.start(trial_, v, accelerates ? initial_acceleration(system_, mesh_.thickness, R) : trial_);
 }
 
 Newton& Muscle::newton() {
@@ -31,7 +49,7 @@ Newton& Muscle::newton() {
 }
 
 void Muscle::follow(const StepState& step) {
-  history_.update(u_, v_, step);
+  history_.update(displacement(), integrator_.v(), step);
   quantities_ = history_.quantities();
   conservation_.update(quantities_);
 }
@@ -42,7 +60,10 @@ Step Muscle::advance(double dt) {
   Step step;
   step.time = time_ + dt;
   step.dt = dt;
-  system_.step() = {step.time, dt, u_, v_};
+  system_.constraints().set_values(step.time, prescribed_);
+  system_.constraints().set_rates(step.time, prescribed_rate_);
+  integrator_.begin(dt, {system_.constraints().dofs(), prescribed_, prescribed_rate_});
+  system_.step() = StepState(integrator_, step.time);
   step.failure = predict(step);
   if (!step.ok()) return step;
   const NewtonResult result = newton().solve(trial_);
@@ -51,27 +72,49 @@ Step Muscle::advance(double dt) {
   step.residual = result.residual;
   step.residuals = result.residuals;
   step.failure = result.failure;
+  if (step.ok()) estimate_error(step);
   return step;
+}
+
+/// Root mean square over free dofs, over that of the largest displacement so far or, while that is small, of the body.
+void Muscle::estimate_error(Step& step) {
+  mfem::Vector error = integrator_.error(trial_);
+  for (int dof : system_.constraints().dofs()) error(dof) = 0;
+  const double dofs = static_cast<double>(unknowns());
+  const double moved = std::max(largest_change_, std::sqrt(sum(trial_ * trial_) / dofs));
+  step.error = std::sqrt(sum(error * error) / dofs) / std::max(moved, small_displacement * size_);
+  step.order = integrator_.rule().order;
+}
+
+std::vector<double> Muscle::kinks() const {
+  std::vector<double> all = config_.body_scale.kinks();
+  const auto take = [&all](const std::vector<double>& some) { all.insert(all.end(), some.begin(), some.end()); };
+  for (const BoundaryConfig& boundary : config_.boundaries) {
+    for (const Table& component : boundary.displacement) take(component.kinks());
+    take(boundary.traction_scale.kinks());
+    take(boundary.pressure.kinks());
+  }
+  for (const auto& [name, material] : config_.materials) take(material->kinks());
+  return all;
 }
 
 /// First guess of the step: the motion goes on, as far as the prescribed values do, which are then met by one linear
 /// solve. If that turns a cell inside out, the same from rest.
 std::string Muscle::predict(Step& step) {
   const double part = continued_part(step);
-  mfem::Vector moved = u_;
-  moved.Add(part * step.dt, v_);
+  mfem::Vector moved = displacement();
+  moved.Add(part * step.dt, integrator_.seen_velocity());
   const std::string failure = predict_from(moved, step);
-  return failure.empty() || part == 0 ? failure : predict_from(u_, step);
+  return failure.empty() || part == 0 ? failure : predict_from(displacement(), step);
 }
 
 /// How much of the last velocity the prescribed values keep, 0 to 1; 1 when they were at rest.
 double Muscle::continued_part(const Step& step) const {
-  mfem::Vector prescribed = u_;
-  system_.constraints().set_values(step.time, prescribed);
+  const mfem::Vector &u = displacement(), &v = integrator_.seen_velocity();
   double along = 0, square = 0;
   for (int dof : system_.constraints().dofs()) {
-    along += (prescribed(dof) - u_(dof)) / step.dt * v_(dof);
-    square += v_(dof) * v_(dof);
+    along += (prescribed_(dof) - u(dof)) / step.dt * v(dof);
+    square += v(dof) * v(dof);
   }
   along = sum(along);
   square = sum(square);
@@ -79,14 +122,12 @@ double Muscle::continued_part(const Step& step) const {
 }
 
 std::string Muscle::predict_from(const mfem::Vector& start, Step& step) {
-  mfem::Vector R(system_.size()), change(system_.size()), lift(system_.size()), prescribed(system_.size());
+  mfem::Vector R(system_.size()), change(system_.size()), lift(system_.size());
   if (!system_.residual(start, R)) return system_.domain_error();
   lift = 0.0;
-  prescribed = start;
-  system_.constraints().set_values(step.time, prescribed);
-  for (int dof : system_.constraints().dofs()) lift(dof) = prescribed(dof) - start(dof);
+  for (int dof : system_.constraints().dofs()) lift(dof) = prescribed_(dof) - start(dof);
+  LinearSolver& linear = newton().linear();  // before the tangent, which it may want cell by cell
   system_.tangent_with_lift(start, lift, R);
-  LinearSolver& linear = newton().linear();
   linear.matrix_changed();
   change = 0.0;
   const std::string failure = linear.solve(R, change);
@@ -95,15 +136,16 @@ std::string Muscle::predict_from(const mfem::Vector& start, Step& step) {
   if (!failure.empty()) return failure;
   trial_ = start;
   trial_ -= change;
-  for (int dof : system_.constraints().dofs()) trial_(dof) = prescribed(dof);
+  for (int dof : system_.constraints().dofs()) trial_(dof) = prescribed_(dof);
   return system_.residual(trial_, R) ? "" : system_.domain_error();
 }
 
 void Muscle::accept() {
   Timers::Scope timer("history");
   const StepState& step = system_.step();
-  for (int i = 0; i < u_.Size(); ++i) v_(i) = (trial_(i) - u_(i)) / step.dt;
-  u_ = trial_;
+  integrator_.accept(trial_);
+  largest_change_ = std::max(largest_change_, std::sqrt(sum(trial_ * trial_) / static_cast<double>(unknowns())));
+  system_.accept_forces();
   time_ = step.time;
   remember_ = true;
   follow(step);

@@ -57,6 +57,12 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
               boundary.bind(s, mesh);
               boundaries.push_back(boundary);
             });
+  Section initial = root.section("initial", "the motion at the start: that of a rigid body");
+  this->initial.bind(initial);
+  Section time = root.section("time");
+  integrator.bind(time);
+  if (inertia == Inertia::quasi_static && time.has("scheme"))
+    time.error("scheme", "nothing moves by inertia here", "drop it, or set muscle.inertia = \"dynamic\"");
   Section body = root.section("body", "forces per mass on everything");
   body.read("acceleration", body_acceleration, {.unit = "m/s^2", .doc = "body force per mass, e.g. gravity"});
   body.read("scale", body_scale, {.doc = "factor of the acceleration, constant or in time"});
@@ -75,6 +81,9 @@ void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
     std::vector<std::string> regions;
     s.read("regions", regions, {.doc = "regions of the mesh that are made of it (default: all)"});
     materials[name] = Material::read(s);
+    if (!materials[name]->fields().empty())
+      s.error("", "fibres and numbers that vary in space are not evaluated by this formulation yet",
+              "give a region and a material to each value");
     if (!s.describing() && !materials[name]->has_volumetric_law())
       logging::warning(
           fmt::format("{}: without a volumetric law the elements' pressure stays 0: displacements alone carry "

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "fe/cell_element.hpp"
+#include "fe/initial_motion.hpp"
 #include "fe/loads.hpp"
 #include "fe/observers.hpp"
 #include "materials/material.hpp"
 #include "mesh/mesh.hpp"
+#include "solve/integrator.hpp"
 #include "solve/newton.hpp"
 
 namespace titin {
@@ -32,10 +34,14 @@ struct MuscleConfig {
   std::vector<AverageConfig> averages;
   std::map<std::string, std::shared_ptr<const Material>> materials;
   std::map<int, std::string> material_of_region;  // by mesh attribute
+  InitialMotion initial;
   NewtonConfig newton;
+  IntegratorConfig integrator;
 
   int points() const { return quadrature > 0 ? quadrature : order + 1; }
   FibreRate rate() const { return inertia == Inertia::dynamic ? fibre_rate : FibreRate::none; }
+  /// What of the rate changes within a step.
+  FibreRate varying_rate() const { return integrator.scheme == Scheme::semi_implicit ? FibreRate::none : rate(); }
   void bind(Section& root, const NamedMesh& mesh);
 
  private:

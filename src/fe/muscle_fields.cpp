@@ -73,12 +73,11 @@ mfem::ParGridFunction* MuscleFields::add(const std::string& name, const std::str
   return storage_.back().get();
 }
 
-void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v, const mfem::Vector& u_old) {
+void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v) {
   draw(u, *displacement_);
   draw(v, *velocity_);
-  system_.for_each_cell(u, u_old, [&](int cell, const Material& material, const ThreeField& kernel) {
-    update_points(cell, material, kernel);
-  });
+  system_.for_each_cell(
+      u, [&](int cell, const Material& material, const ThreeField& kernel) { update_points(cell, material, kernel); });
 }
 
 mfem::Geometry::Type MuscleFields::geometry_of(int cell) const {

@@ -17,8 +17,8 @@ class MuscleFields {
  public:
   explicit MuscleFields(MuscleSystem& system);
 
-  /// `u_old`, and the step that the system holds, give the rates. Collective.
-  void update(const mfem::Vector& u, const mfem::Vector& v, const mfem::Vector& u_old);
+  /// The step that the system holds gives the rates. Collective.
+  void update(const mfem::Vector& u, const mfem::Vector& v);
   const std::vector<Field>& fields() const { return fields_; }
 
  private:

@@ -76,10 +76,12 @@ void MuscleHistory::update(const mfem::Vector& u, const mfem::Vector& v, const S
     if (term.stored) term.value = term.dissipated = 0;
   for (auto& mean : means_) mean.volume = mean.stretch = mean.pennation = mean.rate = 0;
   const std::vector<double> v_cells = system_.cell_values(v);
-  system_.for_each_cell(u, step.u_old, [&](int cell, const Material& material, const ThreeField& kernel) {
+  end_weight_ = step.work_weight;
+  next_stress_ = 0;
+  system_.for_each_cell(u, [&](int cell, const Material& material, const ThreeField& kernel) {
     add_cell(cell, material, kernel, kernel.points(system_.point_input(cell)), &v_cells[system_.first_value(cell)]);
   });
-  if (step.dt > 0) add_boundary_work(u, step.u_old);
+  add_boundary_work(u, step);
   if (kinetic_at_start_ < 0) {
     kinetic_at_start_ = kinetic_;
     stored_at_start_ = volumetric_;
@@ -122,10 +124,19 @@ void MuscleHistory::add_terms(int cell, const Material& material, const ThreeFie
       const double w = system_.tables().weight(cell, q);
       if (account.stored) account.value += w * W[q];
       if (account.dissipates) account.dissipated += w * D[q];
-      for (int i = 0; i < 9 && !account.stored; ++i)
-        account.value += w * P[q][i] * (kernel.F()[q][i] - kernel.F_old()[q][i]);
+      if (!account.stored) account.value += w * work(P[q], kernel.F()[q], kernel.F_old()[q]);
     }
   }
+}
+
+/// Of a stress at a point during the step [J/m^3]. Points come in the same order at every step.
+double MuscleHistory::work(const Mat3& P, const Mat3& F, const Mat3& F_old) {
+  if (next_stress_ == P_old_.size()) P_old_.push_back(P);
+  Mat3& P_old = P_old_[next_stress_++];
+  double sum = 0;
+  for (int i = 0; i < 9; ++i) sum += (end_weight_ * P[i] + (1 - end_weight_) * P_old[i]) * (F[i] - F_old[i]);
+  P_old = P;
+  return sum;
 }
 
 void MuscleHistory::add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in) {
@@ -146,12 +157,18 @@ void MuscleHistory::add_means(int cell, const Material& material, const ThreeFie
   }
 }
 
-void MuscleHistory::add_boundary_work(const mfem::Vector& u, const mfem::Vector& u_old) {
-  for (int dof : system_.constraints().dofs()) work_boundary_ += forces_(dof) * (u(dof) - u_old(dof));
-  for (int i = 0; i < u.Size(); ++i) {
-    work_boundary_ += system_.load_forces()(i) * (u(i) - u_old(i));
-    work_body_ += system_.body_forces()(i) * (u(i) - u_old(i));
-  }
+void MuscleHistory::add_boundary_work(const mfem::Vector& u, const StepState& step) {
+  mfem::Vector boundary = system_.load_forces();
+  for (int dof : system_.constraints().dofs()) boundary(dof) += forces_(dof);
+  const double weight = step.conserving ? 1 : end_weight_;  // forces of the middle are those of the whole step
+  if (step.dt > 0)
+    for (int i = 0; i < u.Size(); ++i) {
+      const double du = u(i) - step.u_old(i);
+      work_boundary_ += (weight * boundary(i) + (1 - weight) * boundary_forces_old_(i)) * du;
+      work_body_ += (weight * system_.body_forces()(i) + (1 - weight) * body_forces_old_(i)) * du;
+    }
+  boundary_forces_old_ = boundary;
+  body_forces_old_ = system_.body_forces();
 }
 
 Quantity MuscleHistory::reaction(int boundary, int component) const {

@@ -1,12 +1,13 @@
 /// Numbers that a muscle run is followed by: reactions, energies, volume, means, markers.
 ///
-/// Work is summed over the steps with the forces at the end of each step. With the weak form tested by the step's
-/// displacement this makes an identity, to solver tolerance,
+/// Work is summed over the steps. For backward Euler it is that of the forces at the end of each step. With the weak
+/// form tested by the step's displacement this makes an identity, to solver tolerance,
 ///
 ///   work of boundary and body forces = sum over terms of int P_term : dF dV + int rho a . du dV,
 ///
-/// and what the stored and kinetic energies fall short of it is the dissipation of the backward Euler scheme: the
-/// balance error, of first order in dt.
+/// and what the stored and kinetic energies fall short of it is the dissipation of the scheme: the balance error, of
+/// first order in dt. Schemes of second order take the mean of the forces at both ends, and have an error of that
+/// order.
 #pragma once
 
 #include <string>
@@ -43,7 +44,8 @@ class MuscleHistory {
   void add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in, const double* v);
   void add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
   void add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
-  void add_boundary_work(const mfem::Vector& u, const mfem::Vector& u_old);
+  void add_boundary_work(const mfem::Vector& u, const StepState& step);
+  double work(const Mat3& P, const Mat3& F, const Mat3& F_old);
   void take_means();
   void take_markers();
   Quantity reaction(int boundary, int component) const;
@@ -60,6 +62,11 @@ class MuscleHistory {
   };
   std::vector<Marker> markers_;
   mfem::Vector u_, forces_;
+  // What does work, at the end of the last step: forces at dofs, and stresses of terms that store nothing.
+  mfem::Vector boundary_forces_old_, body_forces_old_;
+  std::vector<Mat3> P_old_;      // [cell][term][point]
+  std::size_t next_stress_ = 0;  // of these, while cells are visited
+  double end_weight_ = 1;        // of the forces at the end of a step in its work; those at its beginning have the rest
   double kinetic_ = 0, volumetric_ = 0, volume_ = 0, work_boundary_ = 0, work_body_ = 0, kinetic_at_start_ = -1;
   double stored_at_start_ = 0;
   std::string shown_;

@@ -23,11 +23,16 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
       constraints_(config.boundaries, mesh, space),
       loads_(config.boundaries, mesh, config.elements, space, config.points()),
       kernel_(tables_),
+      conserving_(tables_),
       u_cell_(tables_.most_values()),
       u_old_cell_(tables_.most_values()),
+      rate_old_cell_(tables_.most_values()),
+      middle_cell_(tables_.most_values()),
       forces_(space.GetTrueVSize()),
       body_forces_(space.GetTrueVSize()),
-      load_forces_(space.GetTrueVSize()) {
+      load_forces_(space.GetTrueVSize()),
+      static_forces_(space.GetTrueVSize()),
+      inertial_forces_(space.GetTrueVSize()) {
   mfem::Array<int> dofs;
   for (int cell = 0; cell < space.GetNE(); ++cell) {
     space.GetElementVDofs(cell, dofs);
@@ -35,19 +40,56 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
     cell_dofs_.insert(cell_dofs_.end(), dofs.begin(), dofs.end());
     materials_.push_back(config.materials.at(config.material_of_region.at(mesh.mesh->GetAttribute(cell))).get());
   }
-  matrices_ = CellMatrices::create(space_, tables_, symmetric_materials());
+  if (config.integrator.scheme != Scheme::energy_momentum)
+    matrices_ = CellMatrices::create(space_, tables_, symmetric_materials());
   start_history();
-  for (mfem::Vector* v : {&step_.u_old, &step_.v_old, &forces_, &body_forces_, &load_forces_}) {
+  for (mfem::Vector* v : {&step_.u_old, &step_.known_inertia, &forces_, &body_forces_, &load_forces_, &static_forces_,
+                          &inertial_forces_}) {
     v->SetSize(space.GetTrueVSize());
     *v = 0.0;
   }
+  accept_forces();
+}
+
+StepState::StepState(const Integrator& integrator, double time)
+    : time(time),
+      dt(integrator.dt()),
+      u_old(integrator.u()),
+      inertia_factor(integrator.inertia_factor()),
+      inertia_weight(integrator.rule().inertia_weight),
+      known_inertia(integrator.known_inertia()),
+      force_weight(integrator.rule().force_weight),
+      work_weight(integrator.rule().work_weight) {
+  conserving = integrator.config().scheme == Scheme::energy_momentum;
+  const bool lines = integrator.config().velocity == VelocityForm::lines;
+  if (integrator.config().scheme == Scheme::semi_implicit) {
+    rate_dt = integrator.dt_old() > 0 ? integrator.dt_old() : dt;
+    rate_known = true;
+    rate_old = u_old;
+    rate_old.Add(-rate_dt, integrator.seen_velocity());
+  } else if (lines && !conserving) {  // Grad v = (F - F_rate_old) / rate_dt
+    rate_dt = 1 / integrator.velocity_factor();
+    rate_old = u_old;
+    rate_old.Add(-rate_dt, integrator.known_velocity());
+  }
+}
+
+StepState::StepState(double time, double dt, const mfem::Vector& u_old, const mfem::Vector& v_old)
+    : time(time), dt(dt), u_old(u_old), inertia_factor(1 / (dt * dt)), known_inertia(v_old) {
+  known_inertia /= -dt;
+}
+
+void MuscleSystem::accept_forces() {
+  static_forces_old_ = static_forces_;
+  inertial_forces_old_ = inertial_forces_;
 }
 
 Assembly& MuscleSystem::assembly() {
   if (assembly_) return *assembly_;
   assembly_ = std::make_unique<Assembly>(space_, constrained_dofs());
+  const bool conserves = config_.integrator.scheme == Scheme::energy_momentum;
   check(MatSetOption(assembly_->matrix(), MAT_SYMMETRIC,
-                     symmetric_materials() && !loads_.has_follower() ? PETSC_TRUE : PETSC_FALSE));
+                     symmetric_materials() && !loads_.has_follower() && !conserves ? PETSC_TRUE : PETSC_FALSE));
   check(MatSetOption(assembly_->matrix(), MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
   return *assembly_;
 }
@@ -64,13 +106,12 @@ std::unique_ptr<TangentAction> MuscleSystem::make_action(Precision precision) co
 
 void MuscleSystem::set_action(const mfem::Vector& u, TangentAction& action) {
   Timers::Scope timer("tangent");
-  const LocalVectors local(*this, u, step_.u_old);
+  const LocalVectors local(*this, u);
   action.set([&](int cell) { return tangent_points(cell, local); });
 }
 
 TangentPoints MuscleSystem::tangent_points(int cell, const LocalVectors& local) {
-  gather(cell, local);
-  kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data());
+  deform(cell, local);
   return kernel_.tangent_points(cell, material(cell), point_input(cell), inertia(cell));
 }
 
@@ -89,9 +130,8 @@ void MuscleSystem::form_cells_singly(const LocalVectors& local, const std::funct
   std::vector<double> K;
   for (int cell = 0; cell < space_.GetNE(); ++cell) {
     K.assign(std::size_t(tables_.values(cell)) * tables_.values(cell), 0.0);
-    gather(cell, local);
-    kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data());
-    kernel_.add_tangent(cell, material(cell), point_input(cell), K.data());
+    deform(cell, local);
+    add_internal_tangent(cell, K.data());
     if (moving()) add_inertia_tangent(cell, K.data());
     take(cell, K.data());
   }
@@ -99,8 +139,19 @@ void MuscleSystem::form_cells_singly(const LocalVectors& local, const std::funct
 
 bool MuscleSystem::symmetric_materials() const {
   bool all = true;
-  for (const auto& [name, material] : config_.materials) all = all && material->symmetric_tangent(config_.rate());
+  for (const auto& [name, material] : config_.materials)
+    all = all && material->symmetric_tangent(config_.varying_rate());
   return all;
+}
+
+bool MuscleSystem::has_cell_blocks() const {
+  const bool mine = space_.GetNE() > 0 && tables_.geometry() == mfem::Geometry::CUBE && tables_.modes(0) > 0;
+  return !any_of(!mine);
+}
+
+const CellBlocks& MuscleSystem::cell_blocks(double gamma) {
+  if (!cells_) cells_ = std::make_unique<TangentCells>(space_, tables_, constraints_, gamma);
+  return cells_->blocks();
 }
 
 void MuscleSystem::start_history() {
@@ -122,11 +173,14 @@ void MuscleSystem::start_history() {
   history_.commit();
 }
 
-MuscleSystem::LocalVectors::LocalVectors(MuscleSystem& system, const mfem::Vector& u_true,
-                                         const mfem::Vector& u_old_true)
-    : u(system.space_.GetVSize()), u_old(system.space_.GetVSize()) {
-  system.space_.GetProlongationMatrix()->Mult(u_true, u);
-  system.space_.GetProlongationMatrix()->Mult(u_old_true, u_old);
+MuscleSystem::LocalVectors::LocalVectors(MuscleSystem& system, const mfem::Vector& u_true) {
+  const auto to_local = [&](const mfem::Vector& from, mfem::Vector& to) {
+    to.SetSize(system.space_.GetVSize());
+    system.space_.GetProlongationMatrix()->Mult(from, to);
+  };
+  to_local(u_true, u);
+  to_local(system.step_.u_old, u_old);
+  if (system.step_.rate_dt > 0) to_local(system.step_.rate_old, rate_old);
 }
 
 void MuscleSystem::gather(int cell, const mfem::Vector& local, double* values) const {
@@ -141,9 +195,15 @@ std::vector<double> MuscleSystem::cell_values(const mfem::Vector& v) const {
   return values;
 }
 
-void MuscleSystem::gather(int cell, const LocalVectors& local) {
+/// Returns false when the cell is inside out.
+bool MuscleSystem::deform(int cell, const LocalVectors& local) {
   gather(cell, local.u, u_cell_.data());
   gather(cell, local.u_old, u_old_cell_.data());
+  if (!kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data())) return false;
+  if (step_.rate_dt == 0) return true;
+  gather(cell, local.rate_old, rate_old_cell_.data());
+  kernel_.deform_rate(cell, rate_old_cell_.data(), step_.rate_dt, step_.rate_known);
+  return true;
 }
 
 PointInput MuscleSystem::point_input(int cell) const {
@@ -174,40 +234,118 @@ bool MuscleSystem::residual(const mfem::Vector& u, mfem::Vector& R) {
   Timers::Scope timer("residual");
   mfem::Vector a_true(size()), a(space_.GetVSize());
   for (int i = 0; i < size(); ++i)
-    a_true(i) = moving() ? ((u(i) - step_.u_old(i)) / step_.dt - step_.v_old(i)) / step_.dt : 0.0;
+    a_true(i) = moving() ? step_.inertia_factor * (u(i) - step_.u_old(i)) + step_.known_inertia(i) : 0.0;
   space_.GetProlongationMatrix()->Mult(a_true, a);
-  const LocalVectors local(*this, u, step_.u_old);
+  const LocalVectors local(*this, u);
   LocalForces local_forces(space_.GetVSize());
   int bad_cell = -1;
   for (int cell = 0; cell < space_.GetNE() && bad_cell < 0; ++cell)
     if (!add_cell_forces(cell, local, a, local_forces)) bad_cell = cell;
   if (any_of(bad_cell >= 0)) {
-    set_domain_error(bad_cell, bad_cell >= 0 ? kernel_.bad_point() : -1);
+    set_domain_error(bad_cell, bad_cell >= 0 ? std::max(kernel_.bad_point(), conserving_.bad_point()) : -1);
     R = 0.0;
     return false;
   }
   body_forces_ = to_true(local_forces.body);
   load_forces_ = to_true(local_forces.load);
-  forces_ = to_true(local_forces.internal);
-  forces_ += to_true(local_forces.inertia);
-  forces_ -= body_forces_;
-  forces_ -= load_forces_;
+  inertial_forces_ = to_true(local_forces.inertia);
+  static_forces_ = to_true(local_forces.internal);
+  static_forces_ -= body_forces_;
+  static_forces_ -= load_forces_;
   const mfem::Vector total = to_true(local_forces.absolute);
-  force_scale_ = std::max(std::sqrt(sum(total * total)), force_floor_);
-  R = forces_;
-  for (int dof : constraints_.dofs()) R(dof) = 0;
+  force_scale_ = std::max(std::sqrt(sum(total * total)), force_floor_ / config_.newton.tolerance);
+  balance(R);
   return true;
 }
 
-/// Returns false when the cell is inside out.
+/// The residual from the forces at both ends of the step, and the reactions at its end.
+void MuscleSystem::balance(mfem::Vector& R) {
+  const double w = step_.force_weight, m = step_.inertia_weight;
+  R = static_forces_;
+  R.Add(1 / w, inertial_forces_);
+  if (w != 1) R.Add((1 - w) / w, static_forces_old_);
+  for (int dof : constraints_.dofs()) R(dof) = 0;
+  forces_ = static_forces_;
+  if (step_.conserving) {  // those in the middle of the step: their work is exact
+    forces_ += inertial_forces_;
+    return;
+  }
+  forces_.Add(1 / m, inertial_forces_);
+  if (m != 1) forces_.Add(-(1 - m) / m, inertial_forces_old_);
+}
+
+const double* MuscleSystem::load_position() {
+  if (!step_.conserving) return u_cell_.data();
+  for (std::size_t c = 0; c < middle_cell_.size(); ++c) middle_cell_[c] = 0.5 * (u_cell_[c] + u_old_cell_[c]);
+  return middle_cell_.data();
+}
+
+bool MuscleSystem::add_internal_forces(int cell, double* r) {
+  const PointInput in = point_input(cell);
+  if (!step_.conserving) {
+    kernel_.add_forces(cell, material(cell), in, r);
+    return true;
+  }
+  if (!conserving_.deform(cell, material(cell), kernel_, kernel_.points(in), false)) return false;
+  conserving_.add_forces(cell, kernel_, r);
+  return true;
+}
+
+void MuscleSystem::add_internal_tangent(int cell, double* K) {
+  const PointInput in = point_input(cell);
+  if (!step_.conserving) return kernel_.add_tangent(cell, material(cell), in, K);
+  conserving_.deform(cell, material(cell), kernel_, kernel_.points(in), true);
+  conserving_.add_tangent(cell, kernel_, K);
+}
+
+void MuscleSystem::add_load_tangent(int cell, const LocalVectors& local, double* K) {
+  const int n = tables_.values(cell);
+  gather(cell, local.u, u_cell_.data());
+  gather(cell, local.u_old, u_old_cell_.data());
+  std::vector<double> unused(n), slope(n * n);
+  loads_.add(cell, load_time(), load_position(), unused.data(), slope.data());
+  const double part = step_.conserving ? 0.5 : 1;  // how far the load's place moves with the end of the step
+  for (int c = 0; c < n * n; ++c) K[c] += part * slope[c];
+}
+
+bool MuscleSystem::has_potential() const {
+  if (step_.conserving || loads_.has_follower()) return false;
+  for (const auto& [name, material] : config_.materials)
+    for (const TermInfo& term : material->terms())
+      if (!term.stores_energy || term.dissipates) return false;
+  return true;
+}
+
+/// Stored energy, that of the inertia a . M a / (2 inertia_factor), and minus what dead loads and the forces of the
+/// last step have done.
+double MuscleSystem::potential(const mfem::Vector& u) {
+  mfem::Vector R(size());
+  if (!residual(u, R)) return std::numeric_limits<double>::infinity();
+  const double w = step_.force_weight;
+  double energy = 0;
+  for_each_cell(u, [&](int cell, const Material& material, const ThreeField& kernel) {
+    std::vector<double> W(tables_.points(cell));
+    material.potential(kernel.points(point_input(cell)), W.data());
+    for (int q = 0; q < tables_.points(cell); ++q)
+      energy += tables_.weight(cell, q) * (W[q] + material.volumetric(kernel.dilatation()[q]).U);
+  });
+  for (int i = 0; i < size(); ++i) {
+    energy -= (load_forces_(i) + body_forces_(i)) * u(i);
+    if (w != 1) energy += (1 - w) / w * static_forces_old_(i) * u(i);
+    if (!moving()) continue;
+    const double a = step_.inertia_factor * (u(i) - step_.u_old(i)) + step_.known_inertia(i);
+    energy += 0.5 / (step_.inertia_factor * w) * a * inertial_forces_(i);
+  }
+  return sum(energy);
+}
+
 bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mfem::Vector& acceleration,
                                    LocalForces& forces) {
-  gather(cell, local);
-  if (!kernel_.deform(cell, material(cell), u_cell_.data(), u_old_cell_.data())) return false;
+  if (!deform(cell, local)) return false;
   const int n = tables_.values(cell);
   std::vector<double> internal(n), inertia(n), body(n), load(n);
-  kernel_.add_forces(cell, material(cell), point_input(cell), internal.data());
-  loads_.add(cell, step_.time, u_cell_.data(), load.data(), nullptr);
+  if (!add_internal_forces(cell, internal.data())) return false;
+  if (loads_.on_cell(cell)) loads_.add(cell, load_time(), load_position(), load.data(), nullptr);
   add_inertia_and_body(cell, acceleration, inertia.data(), body.data());
   for (int c = 0; c < n; ++c) {
     const int dof = dofs(cell)[c];
@@ -226,7 +364,7 @@ void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& accelerati
   const int nodes = tables_.nodes(cell), dimension = tables_.dimension();
   std::vector<double> a(dimension * nodes);
   gather(cell, acceleration, a.data());
-  const double scale = config_.body_scale(step_.time), density = material(cell).density();
+  const double scale = config_.body_scale(load_time()), density = material(cell).density();
   for (int q = 0; q < tables_.points(cell); ++q) {
     const double mass = density * tables_.weight(cell, q);
     const double* N = tables_.shape(cell, q);
@@ -244,7 +382,7 @@ void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& accelerati
 
 void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfem::Vector* R) {
   Timers::Scope timer("tangent");
-  const LocalVectors local(*this, u, step_.u_old);
+  const LocalVectors local(*this, u);
   mfem::Vector local_lift, local_R;
   if (lift) {
     local_lift.SetSize(space_.GetVSize());
@@ -253,14 +391,14 @@ void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfe
     local_R = 0.0;
   }
   double stiffest = 0;
-  std::vector<double> unused(tables_.most_values());
   assembly().begin();
   form_cells(local, [&](int cell, double* K) {
     const int n = tables_.values(cell);
     for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(K[c * n + c]));
-    if (loads_.on_cell(cell)) {
-      gather(cell, local);
-      loads_.add(cell, step_.time, u_cell_.data(), unused.data(), K);
+    if (loads_.on_cell(cell)) add_load_tangent(cell, local, K);
+    if (cells_) {
+      deform(cell, local);
+      cells_->set(cell, kernel_, material(cell), K, inertia(cell));
     }
     if (lift) add_lift(cell, K, &local_lift, &local_R);
     assembly_->add(cell, K);
@@ -277,11 +415,11 @@ void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfe
   assembly_->end();
 }
 
-/// Mass / dt^2: the derivative of backward Euler's inertia.
+/// The derivative of the inertia in the residual.
 void MuscleSystem::add_inertia_tangent(int cell, double* K) const {
   const int nodes = tables_.nodes(cell), n = tables_.values(cell);
   std::vector<double> mass(nodes * nodes);
-  kernel_.add_mass(cell, material(cell).density() / (step_.dt * step_.dt), mass.data());
+  kernel_.add_mass(cell, inertia(cell), mass.data());
   for (int i = 0; i < tables_.dimension(); ++i)
     for (int a = 0; a < nodes; ++a)
       for (int b = 0; b < nodes; ++b) K[(i * nodes + a) * n + i * nodes + b] += mass[a * nodes + b];

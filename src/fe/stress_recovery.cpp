@@ -45,9 +45,9 @@ const std::vector<double>& StressRecovery::shapes(int cell) const {
   return shapes_[space_.GetParMesh()->GetElementGeometry(cell)];
 }
 
-void StressRecovery::update(const mfem::Vector& u, const mfem::Vector& u_old) {
+void StressRecovery::update(const mfem::Vector& u) {
   Timers::Scope timer("error estimate");
-  take_stress(u, u_old);
+  take_stress(u);
   const CellTables& tables = system_.tables();
   std::vector<double> square(space_.GetNE());
   double norm = 0;
@@ -78,8 +78,8 @@ void StressRecovery::update(const mfem::Vector& u, const mfem::Vector& u_old) {
 }
 
 /// The whole first Piola stress at all points.
-void StressRecovery::take_stress(const mfem::Vector& u, const mfem::Vector& u_old) {
-  system_.for_each_cell(u, u_old, [&](int cell, const Material& material, const ThreeField& kernel) {
+void StressRecovery::take_stress(const mfem::Vector& u) {
+  system_.for_each_cell(u, [&](int cell, const Material& material, const ThreeField& kernel) {
     const PointInput in = kernel.points(system_.point_input(cell));
     Mat3* P = &stress_[first_point(cell)];
     material.stress(in, P, nullptr);

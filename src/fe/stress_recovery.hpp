@@ -21,15 +21,15 @@ class StressRecovery {
   /// `thickness` of a plane body [m], 1 for solid ones.
   StressRecovery(MuscleSystem& system, double thickness);
 
-  /// Of the state u that was reached from u_old by the step that the system holds. Collective.
-  void update(const mfem::Vector& u, const mfem::Vector& u_old);
+  /// Of the state u at the end of the step that the system holds. Collective.
+  void update(const mfem::Vector& u);
   double cell_error(int cell) const { return cell_error_[cell]; }     ///< e_K [Pa m^(3/2)]
   double density(int cell) const;                                     ///< e_K over the root of the cell's volume [Pa]
   double error() const { return error_; }                             ///< root of the sum of e_K^2 over all ranks
   double relative() const { return norm_ > 0 ? error_ / norm_ : 0; }  ///< over the norm of P
 
  private:
-  void take_stress(const mfem::Vector& u, const mfem::Vector& u_old);
+  void take_stress(const mfem::Vector& u);
   mfem::Vector smooth(int component);
   int first_point(int cell) const { return first_point_[cell]; }
   const std::vector<double>& shapes(int cell) const;

@@ -82,6 +82,7 @@ bool ThreeField::deform(int cell, const Material& material, const double* u, con
   points_ = tables_.points(cell);
   tables_.gradients(cell, G_.data());
   bad_point_ = -1;
+  F_rate_old_.clear();
   for (int q = 0; q < points_; ++q) {
     const double* G = &G_[3 * q * padded];
     F_[q] = deformation_gradient(G, dimension, nodes, padded, u);
@@ -101,7 +102,14 @@ bool ThreeField::deform(int cell, const Material& material, const double* u, con
   return bad_point_ < 0;
 }
 
-/// projected = Pi values, both at points; the values themselves when the displacement is alone.
+void ThreeField::deform_rate(int cell, const double* u_old, double dt, bool known) {
+  const int nodes = tables_.nodes(cell), padded = tables_.padded(cell);
+  rate_dt_ = dt;
+  rate_known_ = known;
+  for (int q = 0; q < points_; ++q)
+    F_rate_old_.push_back(deformation_gradient(&G_[3 * q * padded], tables_.dimension(), nodes, padded, u_old));
+}
+
 void ThreeField::project(int cell, const std::vector<double>& values, std::vector<double>& projected) const {
   const int modes = tables_.modes(cell);
   if (modes == 0) {
@@ -126,6 +134,10 @@ PointInput ThreeField::points(PointInput in) const {
   in.F = F_.data();
   in.F_old = F_old_.data();
   in.fibre = fibre_.data();
+  if (F_rate_old_.empty()) return in;
+  in.F_rate_old = F_rate_old_.data();
+  in.F_rate = rate_known_ ? F_old_.data() : nullptr;
+  in.rate_dt = rate_dt_;
   return in;
 }
 

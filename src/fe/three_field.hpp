@@ -30,6 +30,9 @@ class ThreeField {
   /// says where.
   bool deform(int cell, const Material& material, const double* u, const double* u_old);
   int bad_point() const { return bad_point_; }
+  /// After deform: the rate of fibres is that from `u_old` in `dt` [s] to this step's end, or to its beginning if it is
+  /// known by then.
+  void deform_rate(int cell, const double* u_old, double dt, bool known);
 
   /// Adds the internal forces to r. `in` carries time, dt and rate; the points are filled in here.
   void add_forces(int cell, const Material& material, PointInput in, double* r);
@@ -51,8 +54,10 @@ class ThreeField {
   const std::vector<double>& pressure() const { return p_; }
   const double* gradients() const { return G_.data(); }
 
- private:
+  /// projected = Pi values, both at points; the values themselves when the displacement is alone.
   void project(int cell, const std::vector<double>& values, std::vector<double>& projected) const;
+
+ private:
   void set_total_moduli(int cell, const Material& material, const PointInput& in);
   /// M^-1 [int U''(D) psi psi^T dV] M^-1: the stiffness of the volume modes.
   void set_mode_stiffness(int cell, const Material& material, double* S) const;
@@ -65,6 +70,9 @@ class ThreeField {
   std::vector<double> G_;  // [q][J][a]
   std::vector<double> H_;  // [q][J][b]: w A G
   std::vector<Mat3> F_, F_old_, cofactor_, P_;
+  std::vector<Mat3> F_rate_old_;  // empty where the rate is this step's
+  double rate_dt_ = 0;            // [s]
+  bool rate_known_ = false;
   std::vector<Mat9> A_;  // w (A_iso + p d cof F / dF)
   std::vector<Vec3> fibre_;
   std::vector<double> J_, D_, p_, dU_;

@@ -15,11 +15,12 @@ std::string RunSummary::json() const {
   Json timer_table = Json::object();
   for (const auto& [name, t] : timers) timer_table[name] = {{"cpu", t.cpu}, {"wall", t.wall}, {"calls", t.calls}};
   const Json newton_table = {
-      {"total", accepted + newton.failed},
+      {"total", accepted + newton.failed + newton.rejected},
       {"max_per_step", counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end())},
       {"mean_per_step", counts.empty() ? 0.0 : static_cast<double>(accepted) / static_cast<double>(counts.size())},
       {"per_step", counts},
       {"failed", newton.failed},
+      {"rejected", newton.rejected},
       {"cuts", newton.cuts},
       {"last_residuals", newton.last_residuals},
   };
@@ -36,6 +37,7 @@ std::string RunSummary::json() const {
       {"cells", cells},
       {"unknowns", unknowns},
       {"steps", steps},
+      {"rejected", rejected},
       {"time", time},
       {"newton", newton_table},
       {"krylov", {{"total", krylov}}},

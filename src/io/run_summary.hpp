@@ -15,11 +15,12 @@ struct RunSummary {
   int ranks = 1;
   long cells = 0, unknowns = 0;
 
-  int steps = 0;
-  double time = 0;  ///< [s] reached
+  int steps = 0, rejected = 0;  ///< accepted; tried with success, but with too large an error
+  double time = 0;              ///< [s] reached
   struct {
     std::vector<int> per_step;           ///< of accepted steps
     int failed = 0;                      ///< iterations in steps that failed
+    int rejected = 0;                    ///< iterations in steps whose error was too large
     int cuts = 0;                        ///< how often a step was halved
     std::vector<double> last_residuals;  ///< of the last accepted step: shows the order of convergence
   } newton;

@@ -55,6 +55,7 @@ void Activation::bind(Section& s) {
     s.read(
         "activation", curve_,
         {.range = fraction, .required = true, .doc = "active part of the muscle against time; or give an excitation"});
+  kinks_ = curve_.kinks();
   if (!excited && !s.describing()) return;
   if (excited && s.has("activation")) {
     s.read("activation", curve_, {});
@@ -63,6 +64,7 @@ void Activation::bind(Section& s) {
   Table excitation;
   s.read("excitation", excitation,
          {.range = fraction, .doc = "neural drive against time, which the activation follows"});
+  kinks_ = excitation.kinks();
   ActivationModel model;
   Section d = s.section("dynamics", "how the activation follows the excitation");
   d.choose("law", model.law, {{"zajac", ActivationDynamics::zajac}, {"de_groote", ActivationDynamics::de_groote}},

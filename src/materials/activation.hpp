@@ -27,11 +27,13 @@ class Activation {
  public:
   Activation(double constant = 0) : curve_(constant) {}
   double operator()(double time) const { return curve_(time); }
+  const std::vector<double>& kinks() const { return kinks_; }  ///< of what the scene gives
   /// Reads `activation`, or `excitation` with `dynamics`.
   void bind(Section& s);
 
  private:
   Table curve_;
+  std::vector<double> kinks_;
 };
 
 }  // namespace titin

@@ -63,15 +63,25 @@ Mat3 Growth::inverse(const Vec3& fibre) const {
 
 struct GrownMaterial::Points {
   Points(const GrownMaterial& material, const PointInput& all)
-      : w(material.growth_.weight()), in(all), F(all.n), F_old(all.F_old ? all.n : 0), G(all.n) {
+      : w(material.growth_.weight()),
+        in(all),
+        F(all.n),
+        F_old(all.F_old ? all.n : 0),
+        G(all.n),
+        F_rate_old(all.F_rate_old ? all.n : 0),
+        F_rate(all.F_rate ? all.n : 0) {
     const Vec3 own = material.fibre();
     for (int p = 0; p < in.n; ++p) {
       G[p] = material.growth_.inverse(in.fibre ? in.fibre[p] : own);
       F[p] = multiply(in.F[p], G[p]);
       if (in.F_old) F_old[p] = multiply(in.F_old[p], G[p]);
+      if (in.F_rate_old) F_rate_old[p] = multiply(in.F_rate_old[p], G[p]);
+      if (in.F_rate) F_rate[p] = multiply(in.F_rate[p], G[p]);
     }
     in.F = F.data();
     if (in.F_old) in.F_old = F_old.data();
+    if (in.F_rate_old) in.F_rate_old = F_rate_old.data();
+    if (in.F_rate) in.F_rate = F_rate.data();
   }
   void push(Mat3* P, Mat9* A) const {
     for (int p = 0; p < in.n; ++p) {
@@ -85,7 +95,7 @@ struct GrownMaterial::Points {
 
   double w;
   PointInput in;
-  std::vector<Mat3> F, F_old, G;
+  std::vector<Mat3> F, F_old, G, F_rate_old, F_rate;
 };
 
 void GrownMaterial::stress(const PointInput& in, Mat3* P, Mat9* A) const {

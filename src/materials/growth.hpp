@@ -44,6 +44,8 @@ class GrownMaterial final : public Material {
   /// Per volume before growth: new tissue brings its mass, swelling none.
   double density() const override { return growth_.weight() * inside_->density(); }
   Vec3 fibre() const override { return inside_->fibre(); }
+  Vec3 second_fibre() const override { return inside_->second_fibre(); }
+  const MaterialFields& fields() const override { return inside_->fields(); }
   bool has_fibres() const override { return inside_->has_fibres(); }
   bool has_volumetric_law() const override { return inside_->has_volumetric_law(); }
   bool symmetric_tangent(FibreRate rate) const override { return inside_->symmetric_tangent(rate); }
@@ -54,6 +56,7 @@ class GrownMaterial final : public Material {
   void term_energy(int term, const PointInput& in, double* W) const override;
   void potential(const PointInput& in, double* W) const override;
   /// Of the elastic part, which is what the laws see.
+  std::vector<double> kinks() const override { return inside_->kinks(); }
   void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const override;
   Volumetric volumetric(double ratio) const override;
 

@@ -25,9 +25,26 @@ struct PointInput {
   double time = 0;              ///< t_n+1 [s]: time curves (activation) are taken here
   double dt = 0;                ///< [s]; a rate needs dt > 0
   FibreRate rate = FibreRate::none;
+  /// Which terms: those whose stress derives from energy that they store (without memory), or all the others.
+  enum class Part { all, stored, rest } part = Part::all;
+  // Where the rate of fibres is not this step's: what it is taken from.
+  const Mat3* F_rate_old = nullptr;    ///< [n] instead of F_old, rate_dt before the end; null: F_old and dt
+  const Mat3* F_rate = nullptr;        ///< [n] instead of F, when the rate is known before the step; null: F
+  double rate_dt = 0;                  ///< [s] with F_rate_old
   const Vec3* second_fibre = nullptr;  ///< [n] of the second family; null: the material's own
   const double* history = nullptr;     ///< [n][history_size] at t_n; null: points at rest until now
   double* new_history = nullptr;       ///< the same at t_n+1, written by `stress`; may be null
+  const double* fields = nullptr;      ///< [n][fields of the material] parameters that vary in space; null if none do
+};
+
+class SpatialField;
+/// What of a material varies in space (materials/spatial_field.hpp): whoever owns points finds its values there.
+struct MaterialFields {
+  using Pointer = std::shared_ptr<const SpatialField>;
+  std::vector<Pointer> numbers;  ///< of its laws: PointInput::fields
+  Pointer fibre, second_fibre;   ///< null: the same everywhere
+  bool at_right_angles = false;  ///< a term needs the two directions so
+  bool empty() const { return numbers.empty() && !fibre && !second_fibre; }
 };
 
 /// What a term of a material is called and whether it stores energy (the others do work: active stress).
@@ -35,6 +52,7 @@ struct TermInfo {
   std::string name, law;
   bool stores_energy = true;
   bool dissipates = false;
+  bool has_curves = false;  ///< parameters change in time, and bring or take energy
 };
 
 class Material {
@@ -44,7 +62,9 @@ class Material {
   virtual ~Material() = default;
 
   virtual double density() const = 0;  ///< reference density [kg/m^3]
-  virtual Vec3 fibre() const = 0;      ///< unit reference direction; {0,0,0} without fibres
+  virtual Vec3 fibre() const = 0;      ///< unit reference direction, a first one if it varies; {0,0,0} without fibres
+  virtual Vec3 second_fibre() const = 0;
+  virtual const MaterialFields& fields() const = 0;
   virtual bool has_fibres() const = 0;
   /// Without one, the terms themselves resist changes of volume: nothing for formulations that split it off.
   virtual bool has_volumetric_law() const = 0;
@@ -63,6 +83,9 @@ class Material {
   virtual void potential(const PointInput& in, double* W) const = 0;
   /// Output of fibre points: stretch |F a0|, its rate [1/s] by the rate's own definition, and activation (0 without).
   virtual void fibre_state(const PointInput& in, double* stretch, double* rate, double* activation) const = 0;
+
+  /// Times at which what is given to the material (activation) has a kink.
+  virtual std::vector<double> kinks() const { return {}; }
 
   /// Doubles of history that a point carries from step to step (viscosity, damage); what they are is the material's
   /// affair.

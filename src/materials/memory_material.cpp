@@ -61,6 +61,7 @@ struct MemoryMaterial::Rows {
       rest.F = rest.F_old = &identity;
       rest.fibre = points.fibre + p;
       rest.second_fibre = points.second_fibre + p;
+      rest.fields = in.fields ? in.fields + p * material.fields().numbers.size() : nullptr;
       material.start_history(rest, &at_rest[p * stride]);
     }
     old = at_rest.data();
@@ -89,6 +90,7 @@ const MemoryMaterial::Remembering* MemoryMaterial::remembering(int term) const {
 
 void MemoryMaterial::stress(const PointInput& in, Mat3* P, Mat9* A) const {
   plain_.stress(in, P, A);
+  if (in.part == PointInput::Part::stored) return;
   const Rows rows(*this, in);
   std::vector<Mat3> P_term(in.n);
   std::vector<Mat9> A_term(A ? in.n : 0);
@@ -123,6 +125,7 @@ void MemoryMaterial::term_energy(int term, const PointInput& in, double* W) cons
 
 void MemoryMaterial::potential(const PointInput& in, double* W) const {
   plain_.potential(in, W);
+  if (in.part == PointInput::Part::stored) return;
   std::vector<double> stored(in.n);
   for (std::size_t t = plain_.terms().size(); t < infos_.size(); ++t) {
     term_energy(static_cast<int>(t), in, stored.data());

@@ -35,14 +35,21 @@ class Block {
  public:
   Block(const PointInput& in, int first, InvariantSet used, const SumMaterial::Parts& parts, FibreMeasure measure)
       : first_(first), end_(in.n) {
-    const FibreRate rate = in.F_old && in.dt > 0 ? in.rate : FibreRate::none;
+    F_rate_old_ = in.F_rate_old ? in.F_rate_old : in.F_old;
+    const double rate_dt = in.F_rate_old ? in.rate_dt : in.dt;
+    FibreRate rate = F_rate_old_ && rate_dt > 0 && used.has_rate() ? in.rate : FibreRate::none;
+    known_rate_ = {measure, in.F_rate ? rate : FibreRate::none, rate_dt};
+    known_ = used;
+    if (in.F_rate) rate = FibreRate::none;
     for (const FamilyInvariants& family : families)
       if (rate == FibreRate::none) used.erase(family.rate);
     used_ = used;
-    options_ = {measure, rate, in.dt};
+    options_ = {measure, rate, rate_dt};
     points.n = std::min(block_size, in.n - first);
     points.time = in.time;
     points.F = in.F + first;
+    points.field_count = static_cast<int>(parts.fields.numbers.size());
+    if (in.fields) points.fields = in.fields + first * points.field_count;
     for (const FamilyInvariants& family : families) points.excess[index(family.rate)].fill(0);
     for (int g = 0; g < active_groups(); ++g) set_group(in, parts.fibres, g);
   }
@@ -84,7 +91,7 @@ class Block {
     const int p = first_ + g * lane_count;
     Tensor3<Lanes> F_old;
     FibrePair<Lanes> fibres;
-    if (used_.has_rate()) F_old = gather_all(in.F_old, p, end_);
+    if (used_.has_rate()) F_old = gather_all(F_rate_old_, p, end_);
     if (used_.has_any({Invariant::I4, Invariant::I5, Invariant::I8}))
       fibres.first = directions(in.fibre, own.first, p, end_);
     if (used_.has_any({Invariant::I6, Invariant::I8})) fibres.second = directions(in.second_fibre, own.second, p, end_);
@@ -92,6 +99,18 @@ class Block {
     const auto v = values(kinematics_[g], used_);
     for (int a = 0; a < invariant_count; ++a)
       if (used_.has(Invariant(a))) v[a].copy_to(&points.excess[a][g * lane_count], std::experimental::element_aligned);
+    if (known_rate_.rate != FibreRate::none) set_known_rate(in, fibres, g);
+  }
+
+  /// Rates that are numbers to this step: no gradients go with them.
+  void set_known_rate(const PointInput& in, const FibrePair<Lanes>& fibres, int g) {
+    const int p = first_ + g * lane_count;
+    Kinematics<Lanes> known;
+    deform(gather_all(in.F_rate, p, end_), gather_all(F_rate_old_, p, end_), fibres, known_, known_rate_, known);
+    for (std::size_t f = 0; f < families.size(); ++f)
+      if (known_.has(families[f].rate))
+        known.rate[f].copy_to(&points.excess[index(families[f].rate)][g * lane_count],
+                              std::experimental::element_aligned);
   }
 
   void set_derivatives(int g, EnergyDerivatives<Lanes>& W) const {
@@ -106,8 +125,9 @@ class Block {
   }
 
   int first_, end_;
-  InvariantSet used_;
-  FibreOptions options_;
+  InvariantSet used_, known_;  // those with gradients; all, for a rate that is known
+  FibreOptions options_, known_rate_;
+  const Mat3* F_rate_old_;
   std::array<Kinematics<Lanes>, groups> kinematics_;
   DerivativeBlock W_;
 };
@@ -115,7 +135,24 @@ class Block {
 }  // namespace
 
 SumMaterial::SumMaterial(Parts parts) : parts_(std::move(parts)), used_(used_by(parts_.terms)) {
-  for (const WeightedTerm& t : parts_.terms) infos_.push_back(t.info);
+  for (const WeightedTerm& t : parts_.terms) {
+    infos_.push_back(t.info);
+    (t.info.stores_energy ? stored_ : rest_).push_back(t);
+  }
+}
+
+std::span<const WeightedTerm> SumMaterial::terms(PointInput::Part part) const {
+  using Part = PointInput::Part;
+  return part == Part::all ? parts_.terms : part == Part::stored ? stored_ : rest_;
+}
+
+std::vector<double> SumMaterial::kinks() const {
+  std::vector<double> all;
+  for (const WeightedTerm& t : parts_.terms) {
+    const std::vector<double> own = t.term->kinks();
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  return all;
 }
 
 bool SumMaterial::symmetric_tangent(FibreRate rate) const {
@@ -134,7 +171,7 @@ void SumMaterial::evaluate(const PointInput& in, std::span<const WeightedTerm> t
   }
 }
 
-void SumMaterial::stress(const PointInput& in, Mat3* P, Mat9* A) const { evaluate(in, parts_.terms, P, A); }
+void SumMaterial::stress(const PointInput& in, Mat3* P, Mat9* A) const { evaluate(in, terms(in.part), P, A); }
 
 void SumMaterial::term_stress(int term, const PointInput& in, Mat3* P) const {
   evaluate(in, {&parts_.terms[term], 1}, P, nullptr);
@@ -154,7 +191,7 @@ void SumMaterial::potential(const PointInput& in, double* W) const {
   std::fill_n(W, in.n, 0.0);
   for (int first = 0; first < in.n; first += block_size) {
     const Block block(in, first, used_, parts_, parts_.measure);
-    for (const WeightedTerm& t : parts_.terms) t.term->add_potential(block.points, t.weight, W + first);
+    for (const WeightedTerm& t : terms(in.part)) t.term->add_potential(block.points, t.weight, W + first);
   }
 }
 

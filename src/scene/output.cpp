@@ -22,6 +22,13 @@ void OutputConfig::bind(Section& s) {
   if (by_steps && by_time) s.error("interval", "excludes output.every", "keep one of them");
 }
 
+std::vector<double> OutputConfig::times(double end) const {
+  std::vector<double> times;
+  for (long n = 1; interval > 0 && static_cast<double>(n) * interval < end; ++n)
+    times.push_back(static_cast<double>(n) * interval);
+  return times;
+}
+
 Output::Output(const OutputConfig& config, const RunFolder& folder, Model& model) : config_(config), model_(model) {
   Timers::Scope timer("output");
   quantities_ = model.quantities();

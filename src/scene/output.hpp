@@ -18,6 +18,7 @@ struct OutputConfig {
   int every = 1;        // steps
   double interval = 0;  // [s]; 0: by steps
   void bind(Section& s);
+  std::vector<double> times(double end) const;  ///< when fields are due, if by time
 };
 
 /// All functions are collective.

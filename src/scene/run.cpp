@@ -79,6 +79,8 @@ class Run {
  private:
   Outcome loop() {
     const double start = wall_seconds();
+    clock_.land_on(scene_.model->kinks());
+    clock_.land_on(scene_.output.times(scene_.clock.end));
     const StopSignals signals;
     Model& model = *scene_.model;
     Output out(scene_.output, folder_, model);
@@ -97,6 +99,12 @@ class Run {
         outcome = Outcome::not_converged;
         break;
       }
+      if (clock_.reject(step)) {
+        model.rewind();
+        summary_.newton.rejected += step.newton;
+        continue;
+      }
+      add_step(summary_, step);
       model.accept();
       clock_.accept(step, model.largest_dt());
       out.write(clock_);
@@ -111,7 +119,8 @@ class Run {
   Step advance(Model& model) {
     Timers::Scope timer("step");
     const Step step = model.advance(clock_.dt());
-    add_step(summary_, step);
+    summary_.krylov += step.krylov;
+    if (!step.ok()) summary_.newton.failed += step.newton;
     return step;
   }
 
@@ -141,6 +150,7 @@ class Run {
     summary_.steps = clock_.steps();
     summary_.time = clock_.time();
     summary_.newton.cuts = clock_.cuts();
+    summary_.rejected = clock_.rejected();
     for (const Quantity& q : scene_.model->conservation()) summary_.conservation[q.name] = q.value;
     summary_.errors = scene_.reference.errors();
     for (const Quantity& q : scene_.model->errors()) summary_.errors[q.name] = q.value;

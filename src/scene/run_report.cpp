@@ -35,11 +35,6 @@ void add_costs(RunSummary& summary) {
 }
 
 void add_step(RunSummary& summary, const Step& step) {
-  summary.krylov += step.krylov;
-  if (!step.ok()) {
-    summary.newton.failed += step.newton;
-    return;
-  }
   summary.newton.per_step.push_back(step.newton);
   summary.newton.last_residuals = step.residuals;
 }

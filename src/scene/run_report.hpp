@@ -12,7 +12,7 @@ namespace titin {
 std::map<std::string, std::string> library_versions();
 /// Time, memory and warnings so far, of all ranks. Collective.
 void add_costs(RunSummary& summary);
-/// Adds one attempted step.
+/// Adds one accepted step.
 void add_step(RunSummary& summary, const Step& step);
 /// The phases and what they took, longest first, into the log.
 void log_timers(const RunSummary& summary);

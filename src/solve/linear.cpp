@@ -1,5 +1,9 @@
 #include "solve/linear.hpp"
 
+#include <algorithm>
+#include <limits>
+
+#include "base/log.hpp"
 #include "base/timers.hpp"
 
 namespace titin {
@@ -10,6 +14,13 @@ constexpr int restart = 60;
 constexpr int max_iterations = 60;  // an old factorisation that needs more is worth nothing
 constexpr int mumps_extra_memory =
     60;  // [%] of its own estimate, ICNTL(14): fill grows with pivoting on indefinite matrices
+/// Where factors cost more than the block solver although they are used again: 0.5 GB at 47 000 unknowns, and growing
+/// as n^1.2 in memory and n^1.7 in time (docs/verification/solvers.md).
+constexpr PetscInt largest_direct = 40000;
+constexpr double gamma_of_block =
+    5;  // augmentation over the shear modulus; more locks the coarse level in slender bodies
+/// Iterations that cost as much as a new preconditioner of the block solver.
+constexpr int setup_in_iterations = 4;
 
 /// PETSc's view of a true-dof vector; no copy.
 struct View {
@@ -20,9 +31,31 @@ struct View {
   Vec vec = nullptr;
 };
 
+LinearMethod chosen(LinearMethod asked, Mat K, bool has_cells) {
+  if (!has_cells && (asked == LinearMethod::block || asked == LinearMethod::condensed))
+    throw InputError({"solver.linear: only hexahedra with pressure and dilatation have this solver; take \"direct\""});
+  PetscInt size;
+  check(MatGetSize(K, &size, nullptr));
+  const bool small = size <= largest_direct || !has_cells;
+  const LinearMethod method =
+      asked != LinearMethod::automatic ? asked : (small ? LinearMethod::direct : LinearMethod::block);
+  if (asked == LinearMethod::automatic)
+    logging::info("linear solver: {} for {} unknowns ({})", small ? "direct" : "block", size,
+                  has_cells ? fmt::format("block above {}", largest_direct) : "the block solver needs hexahedra");
+  return method;
+}
+
 }  // namespace
 
 void LinearConfig::bind(Section& s) {
+  s.choose(
+      "linear", method,
+      {{"auto", LinearMethod::automatic},
+       {"direct", LinearMethod::direct},
+       {"block", LinearMethod::block},
+       {"condensed", LinearMethod::condensed}},
+      {.doc = "direct: factors of the tangent; block: displacement and pressure, multigrid; condensed: multigrid on "
+              "the tangent; auto: direct for few unknowns, then block"});
   s.read("reuse_limit", reuse_limit,
          {.range = {.min = 0, .max = 50},
           .doc = "a factorisation is used again while a solve takes at most this many iterations"});
@@ -30,16 +63,31 @@ void LinearConfig::bind(Section& s) {
          {.range = {.min = 1e-14, .max = 1e-2}, .doc = "relative residual of a linear solve"});
 }
 
-LinearSolver::LinearSolver(const LinearConfig& config, Mat K, bool symmetric) : config_(config) {
+LinearSolver::LinearSolver(const LinearConfig& config, Mat K, bool symmetric,
+                           const std::function<const CellBlocks&(double gamma)>& cells)
+    : config_(config) {
   check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
   check(KSPSetOperators(ksp_, K, K));
+  switch (chosen(config.method, K, static_cast<bool>(cells))) {
+    case LinearMethod::block:
+      create_block(K, cells(gamma_of_block));
+      break;
+    case LinearMethod::condensed:
+      create_block(K, cells(std::numeric_limits<double>::infinity()));
+      break;
+    default:
+      create_direct(symmetric);
+  }
+}
+
+void LinearSolver::create_direct(bool symmetric) {
   check(KSPSetType(ksp_, KSPGMRES));
   check(KSPGMRESSetRestart(ksp_, restart));
   // The tolerance is then one of forces, as Newton's is. In displacements, which the other side would measure, soft
   // modes hide what is left in stiff ones: slender or nearly incompressible bodies took seven times the Newton
   // iterations.
   check(KSPSetPCSide(ksp_, PC_RIGHT));
-  check(KSPSetTolerances(ksp_, config.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, max_iterations));
+  check(KSPSetTolerances(ksp_, config_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, max_iterations));
   PC pc;
   check(KSPGetPC(ksp_, &pc));
   check(PCSetType(pc, symmetric ? PCCHOLESKY : PCLU));
@@ -51,17 +99,52 @@ LinearSolver::LinearSolver(const LinearConfig& config, Mat K, bool symmetric) : 
   check(KSPSetFromOptions(ksp_));
 }
 
+/// SNES sees one application of a preconditioner, which is a whole solve.
+void LinearSolver::create_block(Mat K, const CellBlocks& cells) {
+  check(MatSetOption(K, MAT_USE_INODES, PETSC_FALSE));  // twice as fast without
+  block_ = std::make_unique<BlockSolver>(cells, K);
+  check(KSPSetType(ksp_, KSPPREONLY));
+  check(KSPSetTolerances(ksp_, config_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  PC pc;
+  check(KSPGetPC(ksp_, &pc));
+  check(PCSetType(pc, PCSHELL));
+  check(PCShellSetContext(pc, this));
+  check(PCShellSetSetUp(pc, update_block));
+  check(PCShellSetApply(pc, apply_block));
+}
+
 LinearSolver::~LinearSolver() { KSPDestroy(&ksp_); }
 
+PetscErrorCode LinearSolver::update_block(PC pc) {
+  LinearSolver* self;
+  check(PCShellGetContext(pc, &self));
+  Timers::Scope timer("preconditioner");
+  self->block_->update();
+  return 0;
+}
+
+PetscErrorCode LinearSolver::apply_block(PC pc, Vec b, Vec x) {
+  LinearSolver* self;
+  check(PCShellGetContext(pc, &self));
+  PetscReal tolerance;
+  check(KSPGetTolerances(self->ksp_, &tolerance, nullptr, nullptr, nullptr));
+  self->block_failure_ = self->block_->solve(b, x, tolerance);
+  if (!self->reused_) self->fresh_iterations_ = self->block_->iterations();
+  self->total_ += self->block_->iterations();
+  check(PCSetFailedReason(pc, self->block_failure_.empty() ? PC_NOERROR : PC_SUBPC_ERROR));
+  return 0;
+}
+
 bool LinearSolver::matrix_changed() {
-  reused_ = factorised_ && failure().empty() && iterations() <= config_.reuse_limit;
+  const int limit = block_ ? fresh_iterations_ + setup_in_iterations : config_.reuse_limit;
+  reused_ = prepared_ && failure().empty() && iterations() <= limit;
   check(KSPSetReusePreconditioner(ksp_, reused_ ? PETSC_TRUE : PETSC_FALSE));
-  factorised_ = true;
+  prepared_ = true;
   return reused_;
 }
 
 bool LinearSolver::forget_reused() {
-  factorised_ = !reused_;
+  prepared_ = !reused_;
   return reused_;
 }
 
@@ -75,6 +158,7 @@ std::string LinearSolver::failure() const {
   KSPConvergedReason reason;
   check(KSPGetConvergedReason(ksp_, &reason));
   if (reason >= 0) return "";
+  if (block_ && !block_failure_.empty()) return block_failure_;
   if (reason == KSP_DIVERGED_PC_FAILED)
     return "the tangent could not be factorised (it is singular, or memory ran out)";
   if (reason == KSP_DIVERGED_NANORINF) return "the tangent holds numbers that are not finite";
@@ -82,9 +166,23 @@ std::string LinearSolver::failure() const {
 }
 
 int LinearSolver::iterations() const {
+  if (block_) return block_->iterations();
   PetscInt its = 0;
   check(KSPGetIterationNumber(ksp_, &its));
   return its;
+}
+
+int LinearSolver::take_iterations() {
+  if (!block_) {
+    PetscInt its = 0;
+    check(KSPGetTotalIterations(ksp_, &its));
+    const int taken = static_cast<int>(its) - total_;
+    total_ = static_cast<int>(its);
+    return taken;
+  }
+  const int taken = total_;
+  total_ = 0;
+  return taken;
 }
 
 }  // namespace titin

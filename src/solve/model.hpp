@@ -14,6 +14,8 @@ struct Step {
   int krylov = 0;                 ///< linear iterations
   double residual = 0;            ///< last residual over its scale
   std::vector<double> residuals;  ///< the same of each iteration: shows the order of convergence
+  double error = 0;               ///< estimate of the step's own error over the size of the solution
+  int order = 1;                  ///< of the scheme: the error is of one order more in dt
   std::string failure;            ///< empty when it converged; else where and why, in words
   bool ok() const { return failure.empty(); }
 };
@@ -45,6 +47,9 @@ class Model {
   virtual double time() const = 0;
   /// Largest step that the formulation can take from here [s] (explicit: stability); infinite for implicit ones.
   virtual double largest_dt() const = 0;
+
+  /// Times at which what drives the model has a kink: adaptive steps end there.
+  virtual std::vector<double> kinks() const { return {}; }
 
   /// Of the accepted state. Collective. The same names in the same order at every call.
   virtual std::vector<Quantity> quantities() = 0;

@@ -20,14 +20,32 @@ class NonlinearSystem {
   virtual bool residual(const mfem::Vector& u, mfem::Vector& R) = 0;
   /// dR/du with unit rows and columns at constrained dofs.
   virtual void tangent(const mfem::Vector& u, Mat K) = 0;
+  /// The cells of the tangent for solvers that work on them (solve/block_solver.hpp); from then on tangent() keeps them
+  /// current. The same gamma at every call.
+  virtual const CellBlocks& cell_blocks(double gamma) = 0;
+  virtual bool has_cell_blocks() const = 0;  ///< Collective
   /// The force that a residual is measured against, at the last u of residual() [N].
   virtual double force_scale() const = 0;
   /// Why residual() was false, in words.
   virtual std::string domain_error() const = 0;
+  /// Is R the gradient of a function of u?
+  virtual bool has_potential() const { return false; }
+  /// That function [J]; infinite outside the domain. Evaluates residual(u) on its way.
+  virtual double potential(const mfem::Vector& /*u*/) { return 0; }
+};
+
+/// What keeps Newton's method from steps that are too long.
+enum class Globalisation {
+  line_search,   ///< each iteration starts with the whole step
+  trust_region,  ///< with what the last iteration could trust, twice as much when it had all of it
 };
 
 struct NewtonConfig {
   double tolerance = 1e-6;
+  // Asked besides, where not 0: the last increment over the change in the step, and its work over the first one's.
+  double increment_tolerance = 0, energy_tolerance = 0;
+  Globalisation globalisation = Globalisation::line_search;
+  bool inexact = false;
   int max_iterations = 25;
   LinearConfig linear;
   void bind(Section& s);
@@ -58,6 +76,9 @@ class Newton {
                              SNESConvergedReason*, void* self);
   static PetscErrorCode search(SNESLineSearch, void* self);
   PetscErrorCode backtrack(SNESLineSearch line_search);
+  bool lowers_potential(Vec u, Vec trial, double slope, double s);
+  bool converged(double norm, double scale, double increment) const;
+  std::string missed() const;
   bool evaluate(Vec u, Vec R);
   std::string reason_in_words(SNESConvergedReason reason) const;
 
@@ -68,6 +89,12 @@ class Newton {
   Vec u_ = nullptr, R_ = nullptr;
   NewtonResult result_;
   bool outside_domain_ = false;
+  mfem::Vector start_;    // u at the beginning of the solve
+  double potential_ = 0;  // at the last iterate, where asked for
+  bool potential_known_ = false;
+  double energy_ = 0, first_energy_ = 0;  // |R . increment| of the last and the first iteration
+  double relative_increment_ = 0;         // of the last iteration
+  double radius_ = 0;                     // of the trust region, [m]
 };
 
 }  // namespace titin

@@ -76,7 +76,9 @@ TEST_P(Assembled, IsTheSumOfTheCellMatrices) {
   const auto model = make_block(scene, true, GetParam());
   MuscleSystem& system = model->system();
   const mfem::Vector u = interpolate(system.space(), deformation);
-  system.step().dt = 0.01;
+  mfem::Vector rest(u.Size());
+  rest = 0.0;
+  system.step() = {0.01, 0.01, rest, rest};
   system.tangent(u, system.matrix());
   system.tangent(u, system.matrix());  // nothing of the first is left
   Mat difference = sum_of_cell_matrices(system, u);

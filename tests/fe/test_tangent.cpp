@@ -43,7 +43,10 @@ struct Derivative {
     u_old *= 0.4;  // every fibre lengthens at a rate between two joints of the force-velocity curve
     mfem::Vector v_old = u;
     v_old *= 0.5;
-    system.step() = {0.05, 0.02, u_old, v_old};
+    Integrator integrator(model.system().config().integrator, u.Size());
+    integrator.start(u_old, v_old, v_old);
+    integrator.begin(0.02, {system.constraints().dofs(), u, v_old});
+    system.step() = StepState(integrator, 0.05);
     for (int dof : system.constraints().dofs()) w(dof) = 0;
   }
   mfem::Vector residual_at(double h) {
@@ -127,6 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"muscle_velocity_gradient",
                          "[muscle]\nfibre_rate = \"velocity_gradient\"\n" + muscle_material + ends, false},
                     Case{"quasi_static", "[muscle]\ninertia = \"quasi-static\"\n" + muscle_material + ends, true},
+                    Case{"conserving", "[time]\nscheme = \"energy_momentum\"\n" + soft_material + ends, false},
+                    Case{"conserving_muscle", "[time]\nscheme = \"energy_momentum\"\n" + muscle_material + ends, false},
                     Case{"order_1", "[muscle]\norder = 1\n" + muscle_material + ends, true},
                     Case{"order_3", "[muscle]\norder = 3\n" + soft_material + ends, true},
                     Case{"pressure", soft_material + ends + "[boundary.\"x+\"]\npressure = \"20 kPa\"\n", false},

@@ -87,6 +87,8 @@ class Loaded : public NonlinearSystem {
     return inside;
   }
   void tangent(const mfem::Vector& u, Mat K) override { system_.tangent(u, K); }
+  bool has_cell_blocks() const override { return system_.has_cell_blocks(); }
+  const CellBlocks& cell_blocks(double gamma) override { return system_.cell_blocks(gamma); }
   double force_scale() const override { return system_.force_scale(); }
   std::string domain_error() const override { return system_.domain_error(); }
 
@@ -184,7 +186,7 @@ tolerance = 1e-11
     Errors square;
     const CellTables& tables = system_.tables();
     const std::vector<double> values = system_.cell_values(u);
-    system_.for_each_cell(u, u, [&](int cell, const Material& material, const ThreeField& kernel) {
+    system_.for_each_cell(u, [&](int cell, const Material& material, const ThreeField& kernel) {
       const int nodes = tables.nodes(cell);
       std::vector<Mat3> P(tables.points(cell));
       material.stress(kernel.points(system_.point_input(cell)), P.data(), nullptr);
@@ -205,7 +207,7 @@ tolerance = 1e-11
       }
     });
     StressRecovery recovery(system_, 1.0);
-    recovery.update(u, u);
+    recovery.update(u);
     return {std::sqrt(sum(square.u)), std::sqrt(sum(square.p)), std::sqrt(sum(square.D)), std::sqrt(sum(square.P)),
             recovery.error()};
   }

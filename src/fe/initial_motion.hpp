@@ -1,0 +1,25 @@
+/// How a body moves when a run begins: as a rigid one, with its forces at once.
+///
+///   v_0(X) = velocity + spin x (X - centre),   M a_0 + f(u_0) = 0 at free dofs, a_0 = 0 at the others
+#pragma once
+
+#include <array>
+#include <mfem.hpp>
+
+#include "base/config.hpp"
+
+namespace titin {
+
+class MuscleSystem;
+
+struct InitialMotion {
+  std::array<double, 3> velocity{}, spin{}, centre{};  // [m/s], [rad/s], [m]
+  void bind(Section& s);
+  mfem::Vector at_dofs(mfem::ParFiniteElementSpace& space) const;  ///< true dofs [m/s]
+};
+
+/// [m/s^2] at true dofs, from the residual at the start [N]; `thickness` [m] of a plane body, 1 for solid ones.
+/// Collective.
+mfem::Vector initial_acceleration(MuscleSystem& system, double thickness, const mfem::Vector& residual);
+
+}  // namespace titin

@@ -1,0 +1,183 @@
+#include "solve/block_coarse.hpp"
+
+#include <algorithm>
+
+#include "base/timers.hpp"
+#include "solve/block_amg.hpp"
+
+namespace titin {
+
+namespace {
+
+constexpr double at_corner = 1 - 1e-9;  // the hat of a corner, there
+
+}  // namespace
+
+CoarseLevel::CoarseLevel(const CellBlocks& blocks, const LocalDofs& dofs) : blocks_(blocks), owned_(dofs.owned()) {
+  number();
+  create_prolongation(dofs);
+  create_matrix();
+  create_solver();
+}
+
+CoarseLevel::~CoarseLevel() {
+  KSPDestroy(&solver_);
+  MatDestroy(&A_);
+  MatDestroy(&P_);
+  for (Vec* v : {&fine_, &right_, &left_}) VecDestroy(v);
+}
+
+/// A coarse dof is constrained where the displacement of its vertex is.
+void CoarseLevel::number() {
+  const CellLayout& layout = blocks_.layout();
+  const int components = layout.components;
+  for (int cell = 0; cell < layout.cells; ++cell)
+    for (int i = 0; i < components; ++i)
+      for (int v = 0; v < layout.corners; ++v) {
+        int node = 0;
+        while (layout.hat[node * layout.corners + v] < at_corner) ++node;
+        const bool fixed = layout.dofs[(std::size_t(cell) * components + i) * layout.nodes + node] < 0;
+        const PetscInt dof = components * layout.corner[std::size_t(cell) * layout.corners + v] + i;
+        dofs_.push_back(fixed ? -1 : dof);
+      }
+}
+
+void CoarseLevel::create_prolongation(const LocalDofs& dofs) {
+  const CellLayout& layout = blocks_.layout();
+  const PetscInt coarse = layout.components * layout.owned_corners;
+  check(MatCreate(PETSC_COMM_WORLD, &P_));
+  check(MatSetSizes(P_, owned_, coarse, PETSC_DETERMINE, PETSC_DETERMINE));
+  check(MatSetType(P_, MATAIJ));
+  check(MatSetOptionsPrefix(P_, "coarse_"));
+  check(MatXAIJSetPreallocation(P_, 1, std::vector<PetscInt>(owned_, std::min<PetscInt>(layout.corners, coarse)).data(),
+                                std::vector<PetscInt>(owned_, layout.corners).data(), nullptr, nullptr));
+  std::vector<char> done(owned_, 0);
+  for (int cell = 0; cell < layout.cells; ++cell)
+    for (int c = 0; c < layout.size(); ++c) {
+      const PetscInt dof = layout.dofs[std::size_t(cell) * layout.size() + c];
+      const int local = dofs.local(dof);
+      if (local >= owned_ || done[local]) continue;
+      done[local] = 1;
+      const int i = c / layout.nodes, node = c % layout.nodes;
+      for (int v = 0; v < layout.corners; ++v) {
+        const double weight = layout.hat[node * layout.corners + v];
+        const PetscInt column = dofs_[(std::size_t(cell) * layout.components + i) * layout.corners + v];
+        if (weight != 0 && column >= 0) check(MatSetValue(P_, dof, column, weight, INSERT_VALUES));
+      }
+    }
+  check(MatAssemblyBegin(P_, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(P_, MAT_FINAL_ASSEMBLY));
+  check(MatCreateVecs(P_, &right_, &fine_));
+  check(VecDuplicate(right_, &left_));
+}
+
+/// The pattern comes from a first assembly into a matrix that only counts.
+void CoarseLevel::create_matrix() {
+  const CellLayout& layout = blocks_.layout();
+  const PetscInt n = layout.components * layout.owned_corners;
+  const auto create = [&](MatType type) {
+    Mat A;
+    check(MatCreate(PETSC_COMM_WORLD, &A));
+    check(MatSetSizes(A, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+    check(MatSetBlockSize(A, layout.components));
+    check(MatSetType(A, type));
+    return A;
+  };
+  Mat pattern = create(MATPREALLOCATOR);
+  check(MatSetUp(pattern));
+  assemble(pattern);
+  A_ = create(MATAIJ);
+  check(MatPreallocatorPreallocate(pattern, PETSC_TRUE, A_));
+  check(MatDestroy(&pattern));
+  check(MatSetOption(A_, MAT_SYMMETRIC, PETSC_TRUE));
+  check(MatSetOption(A_, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  check(MatGetSize(A_, &size_, nullptr));
+}
+
+void CoarseLevel::create_solver() {
+  check(KSPCreate(PETSC_COMM_WORLD, &solver_));
+  check(KSPSetOptionsPrefix(solver_, "coarse_"));
+  check(KSPSetType(solver_, KSPPREONLY));
+  check(KSPSetOperators(solver_, A_, A_));
+  PC pc;
+  check(KSPGetPC(solver_, &pc));
+  if (size_ <= largest_direct) {
+    check(PCSetType(pc, PCCHOLESKY));
+    check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  } else {
+    set_boomeramg(pc, "coarse_");
+  }
+  check(KSPSetFromOptions(solver_));
+}
+
+void CoarseLevel::update() {
+  Timers::Scope timer("coarse level");
+  check(MatZeroEntries(A_));
+  assemble(A_);
+  check(KSPSetOperators(solver_, A_, A_));
+  check(KSPSetUp(solver_));
+}
+
+void CoarseLevel::assemble(Mat A) {
+  for (int batch = 0; batch < blocks_.batches(); ++batch) add_batch(batch, A);
+  const CellLayout& layout = blocks_.layout();
+  const int n = layout.components * layout.corners;
+  std::vector<char> free(layout.components * layout.owned_corners, 0);
+  PetscInt first;
+  check(MatGetOwnershipRange(A, &first, nullptr));
+  for (std::size_t c = 0; c < std::size_t(layout.cells) * n; ++c)
+    if (dofs_[c] >= first && dofs_[c] < first + static_cast<PetscInt>(free.size())) free[dofs_[c] - first] = 1;
+  for (std::size_t dof = 0; dof < free.size(); ++dof) {
+    const PetscInt row = first + static_cast<PetscInt>(dof);
+    if (!free[dof]) check(MatSetValue(A, row, row, 1, ADD_VALUES));
+  }
+  check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+}
+
+/// Adds P^T A_g P of eight cells.
+void CoarseLevel::add_batch(int batch, Mat A) {
+  const CellLayout& layout = blocks_.layout();
+  const int n = layout.size(), corners = layout.corners, m = layout.components * corners;
+  const FloatLanes* fine = blocks_.matrices(batch);
+  std::vector<FloatLanes> half(std::size_t(n) * m), coarse(std::size_t(m) * m);  // A_g P; P^T A_g P
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int v = 0; v < corners; ++v) {
+        const auto weight = static_cast<float>(layout.hat[(j % layout.nodes) * corners + v]);
+        if (weight != 0) half[i * m + (j / layout.nodes) * corners + v] += weight * fine[packed_index(i, j)];
+      }
+  for (int i = 0; i < n; ++i)
+    for (int v = 0; v < corners; ++v) {
+      const auto weight = static_cast<float>(layout.hat[(i % layout.nodes) * corners + v]);
+      const int row = (i / layout.nodes) * corners + v;
+      if (weight == 0) continue;
+      for (int k = 0; k < m; ++k) coarse[row * m + k] += weight * half[i * m + k];
+    }
+  std::vector<double> values(m * m);
+  for (int lane = 0; lane < float_lanes && batch * float_lanes + lane < layout.cells; ++lane) {
+    for (int e = 0; e < m * m; ++e) values[e] = coarse[e][lane];
+    const PetscInt* dofs = &dofs_[std::size_t(batch * float_lanes + lane) * m];
+    check(MatSetValues(A, m, dofs, m, dofs, values.data(), ADD_VALUES));
+  }
+}
+
+bool CoarseLevel::correct(const float* r, float* x) {
+  Timers::Scope timer("coarse level");
+  PetscScalar* values;
+  check(VecGetArray(fine_, &values));
+  std::copy_n(r, owned_, values);
+  check(VecRestoreArray(fine_, &values));
+  check(MatMultTranspose(P_, fine_, right_));
+  check(KSPSolve(solver_, right_, left_));
+  check(MatMult(P_, left_, fine_));
+  const PetscScalar* correction;
+  check(VecGetArrayRead(fine_, &correction));
+  for (int i = 0; i < owned_; ++i) x[i] += static_cast<float>(correction[i]);
+  check(VecRestoreArrayRead(fine_, &correction));
+  KSPConvergedReason reason;
+  check(KSPGetConvergedReason(solver_, &reason));
+  return reason >= 0;
+}
+
+}  // namespace titin

@@ -1,0 +1,39 @@
+/// Inverse of the Schur complement of the pressure, approximately (Cahouet, Chabat 1988, with augmentation):
+///
+///   S^-1 ~ (M / ((1 + gamma) mu) + S'^-1)^-1 + (B m^-1 B^T + M / kappa)^-1,
+///
+/// m: lumped mass over what turns displacements into accelerations (dt^2 for backward Euler). The first term is a small
+/// matrix in each cell. The second is that of short steps, in which inertia holds against pressure: a discontinuous
+/// Laplacian, of which one V-cycle of BoomerAMG is taken. The formulation is total Lagrangian and this term is about
+/// length scales, not about values: it is kept while m stays.
+#pragma once
+
+#include "solve/block_multigrid.hpp"
+
+namespace titin {
+
+class SchurInverse {
+ public:
+  SchurInverse(const CellBlocks& blocks, const Multigrid& multigrid);
+  ~SchurInverse();
+  SchurInverse(const SchurInverse&) = delete;
+
+  void update();  ///< Collective
+  /// p += S^-1 r, [cell][mode]. Collective.
+  void add(const double* r, double* p);
+
+ private:
+  bool lump(std::vector<double>& mass) const;
+  void create_laplacian(const std::vector<double>& mass);
+  Mat scaled_divergence(const std::vector<double>& mass) const;
+  void add_compliance();
+
+  const CellBlocks& blocks_;
+  const Multigrid& multigrid_;
+  std::vector<double> mass_;  // of which the Laplacian is
+  Mat laplacian_ = nullptr;
+  KSP solver_ = nullptr;
+  Vec right_ = nullptr, left_ = nullptr;
+};
+
+}  // namespace titin

@@ -1,0 +1,159 @@
+// The block solver against factors of the same tangent: the same solutions, in numbers of iterations that do not grow
+// with the bulk modulus, the step, fibres, bent or stretched cells; and the same Newton iterations in a run.
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "blocks.hpp"
+
+namespace titin {
+namespace {
+
+using namespace test;
+
+constexpr double mu = 1e4, side = 0.03;  // [Pa], [m]
+constexpr double tolerance = 1e-6;       // of the residual of forces
+constexpr int wanted = 30;               // iterations at most
+
+struct Case {
+  double ratio, dt, fibre, aspect, wave, strain;
+  int most = wanted;
+  friend std::ostream& operator<<(std::ostream& out, const Case& c) {
+    return out << fmt::format("bulk/shear {:g}, dt {:g}, fibres {:g}, aspect {:g}, wave {:g}, strain {:g}", c.ratio,
+                              c.dt, c.fibre, c.aspect, c.wave, c.strain);
+  }
+};
+
+Parts read_cube(const Case& c, const std::string& method, int cells) {
+  std::string text =
+      fmt::format("[mesh]\nbox = \"{0} m, {0} m, {1} m\"\ncells = [{2}, {2}, {2}]\n", side, side * c.aspect, cells);
+  text += fmt::format("[muscle]\ninertia = \"{}\"\n", c.dt > 0 ? "dynamic" : "quasi-static");
+  text += "[materials.body]\ndensity = \"1060 kg/m^3\"\nfibre = [0.342, 0, 0.94]\n";
+  text += fmt::format("volumetric = {{ law = \"simo\", bulk_modulus = \"{} Pa\" }}\n", c.ratio * mu);
+  text += fmt::format("[materials.body.terms]\nbase = {{ law = \"neo_hookean\", mu = \"{} Pa\" }}\n", mu);
+  if (c.fibre > 0) text += fmt::format("fibres = {{ law = \"linear_fibre\", stiffness = \"{} Pa\" }}\n", c.fibre * mu);
+  text += fmt::format("[boundary.\"z-\"]\nclamp = true\n[solver]\nlinear = \"{}\"\nlinear_tolerance = {}\n", method,
+                      tolerance);
+  Config config(text, "test");
+  Section root = config.root();
+  Parts parts;
+  Section mesh = root.section("mesh");
+  parts.mesh.bind(mesh);
+  parts.named = NamedMesh::read(parts.mesh, mesh);
+  parts.muscle.bind(root, parts.named);
+  config.finish();
+  const double k = 2 * M_PI / side;
+  for (int vertex = 0; vertex < parts.named.mesh->GetNV(); ++vertex) {
+    double* x = parts.named.mesh->GetVertex(vertex);
+    const double wave = c.wave * side * std::sin(k * x[0]) * std::sin(k * x[1]) * std::sin(k * x[2]);
+    for (int i = 0; i < 3; ++i) x[i] += wave;
+  }
+  return parts;
+}
+
+struct Solution {
+  int iterations;
+  double residual;  // |b - K x| / |b|
+  mfem::Vector x;
+};
+
+Solution solve(const Case& c, const std::string& method, int cells) {
+  Parts parts = read_cube(c, method, cells);
+  const LinearConfig config = parts.muscle.newton.linear;
+  Muscle model(std::move(parts.named), std::move(parts.muscle));
+  MuscleSystem& system = model.system();
+  mfem::Vector u = interpolate(system.space(), [s = c.strain](const mfem::Vector& x, mfem::Vector& w) {
+    const double lateral = 1 / std::sqrt(1 + s) - 1;  // lengthened and sheared, the volume kept
+    w.SetSize(3);
+    w(0) = lateral * x(0) + s * x(2);
+    w(1) = lateral * x(1);
+    w(2) = s * x(2);
+  });
+  mfem::Vector v = u;
+  v = 0.0;
+  system.step() = {c.dt, c.dt, u, v};
+  Solution solution;
+  LinearSolver linear(config, system.matrix(), true,
+                      [&](double gamma) -> const CellBlocks& { return system.cell_blocks(gamma); });
+  system.tangent(u, system.matrix());
+  mfem::Vector b(u.Size());
+  solution.x = b;
+  for (int i = 0; i < b.Size(); ++i) b(i) = i % 3 == 0 ? 1.0 : 0.1;
+  for (int dof : system.constraints().dofs()) b(dof) = 0;
+  linear.matrix_changed();
+  EXPECT_EQ(linear.solve(b, solution.x), "");
+  solution.iterations = linear.iterations();
+  Vec given, taken, left;
+  check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 1, b.Size(), PETSC_DECIDE, b.GetData(), &given));
+  check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 1, b.Size(), PETSC_DECIDE, solution.x.GetData(), &taken));
+  check(VecDuplicate(given, &left));
+  check(MatMult(system.matrix(), taken, left));
+  check(VecAXPY(left, -1, given));
+  double norm, norm_b;
+  check(VecNorm(left, NORM_2, &norm));
+  check(VecNorm(given, NORM_2, &norm_b));
+  solution.residual = norm / norm_b;
+  for (Vec* vec : {&given, &taken, &left}) check(VecDestroy(vec));
+  return solution;
+}
+
+class BlockIterations : public ::testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(AllRegimes, BlockIterations,
+                         ::testing::Values(Case{1e2, 0, 0, 1, 0, 0}, Case{1e3, 0, 0, 1, 0, 0}, Case{1e4, 0, 0, 1, 0, 0},
+                                           Case{1e3, 1e-2, 0, 1, 0, 0}, Case{1e3, 1e-3, 0, 1, 0, 0},
+                                           Case{1e3, 1e-4, 0, 1, 0, 0}, Case{1e4, 1e-4, 0, 1, 0, 0},
+                                           Case{1e4, 1e-3, 0, 1, 0, 0.1}, Case{1e3, 0, 20, 1, 0, 0.1},
+                                           Case{1e3, 1e-3, 20, 1, 0, 0.1}, Case{1e4, 1e-4, 20, 1, 0, 0.1},
+                                           Case{1e3, 1e-3, 0, 1, 0.04, 0}, Case{1e3, 0, 0, 5, 0, 0},
+                                           Case{1e4, 1e-3, 20, 5, 0, 0.1, 36}, Case{1e2, 1e-4, 20, 5, 0, 0.1}));
+
+TEST_P(BlockIterations, stay_few) {
+  const Solution solution = solve(GetParam(), "block", 5);
+  EXPECT_LE(solution.iterations, GetParam().most) << GetParam();
+  EXPECT_LE(solution.residual, 1.01 * tolerance) << GetParam();
+  RecordProperty("iterations", solution.iterations);
+  if (is_root()) fmt::print("{:3} iterations: {}\n", solution.iterations, fmt::streamed(GetParam()));
+}
+
+TEST(LinearSolvers, find_the_same_solution) {
+  const Case c{1e3, 1e-3, 20, 1, 0.04, 0.1};
+  const Solution exact = solve(c, "direct", 4);
+  for (const char* method : {"block", "condensed"}) {
+    Solution found = solve(c, method, 4);
+    found.x -= exact.x;
+    EXPECT_LE(std::sqrt(sum(found.x * found.x) / sum(exact.x * exact.x)), 1e-4) << method;
+    EXPECT_LE(found.residual, 1.01 * tolerance) << method;
+  }
+}
+
+TEST(LinearSolvers, take_the_same_newton_iterations) {
+  const std::string scene = muscle_material + R"(
+[boundary."x-"]
+clamp = true
+[boundary."x+"]
+displacement.x = { time = "0, 0.1 s", value = [0, 0.1], scale = "30 mm" }
+displacement.y = "0 mm"
+displacement.z = "0 mm"
+[solver]
+linear = )";
+  std::vector<int> newton;
+  std::vector<double> force;
+  for (const char* method : {"\"direct\"", "\"block\"", "\"condensed\""}) {
+    const auto model = make_block(scene + method + "\n");
+    newton.push_back(0);
+    for (const Step& step : march(*model, 0.1, 0.025)) {
+      EXPECT_TRUE(step.ok()) << method << ": " << step.failure;
+      newton.back() += step.newton;
+    }
+    force.push_back(quantity(*model, "reaction_x+_x"));
+  }
+  EXPECT_EQ(newton[1], newton[0]);
+  EXPECT_EQ(newton[2], newton[0]);
+  for (double f : force) EXPECT_NEAR(f, force[0], 1e-5 * std::abs(force[0]));
+}
+
+}  // namespace
+}  // namespace titin
