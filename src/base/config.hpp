@@ -68,7 +68,16 @@ class InputError : public std::runtime_error {
 };
 
 class Config;
+class Section;
 struct SceneText;
+
+/// Takes the numbers of a table that are tables themselves: curves in time, fields in space.
+class VaryingNumbers {
+ public:
+  virtual ~VaryingNumbers() = default;
+  /// Sets `value` to what it is at first, and keeps how it varies; reports what is wrong to the section.
+  virtual void read(Section& section, std::string_view name, double& value, const Key& key) = 0;
+};
 
 /// A (sub)table of a scene while it is being walked. Cheap to copy.
 class Section {
@@ -83,8 +92,8 @@ class Section {
   void read(std::string_view name, std::string& value, Key key);
   void read(std::string_view name, std::vector<std::string>& value, Key key);  ///< a list, or one string
   /// A constant ("3 mm") or {time = "0, 0.1 s", value = "0, 3 mm"} or {file = "strain.csv"} (two columns: time in s,
-  /// value in the key's SI unit, or headed by other units), the latter two with an optional `scale` quantity that
-  /// multiplies pure-number values.
+  /// value in the key's SI unit, or headed by other units; of more columns the one that `column` names), the latter two
+  /// with an optional `scale` quantity that multiplies pure-number values.
   void read(std::string_view name, Table& value, Key key);
 
   /// One of a few words, each with its enumerator.
@@ -109,13 +118,17 @@ class Section {
   /// keys are described, once with the name "<NAME>".
   void each(std::string_view name, std::string_view doc, const std::function<void(const std::string&, Section)>& walk);
 
+  /// The same table, whose plain numbers may vary: those that do go to `varying`, which must outlive the section.
+  Section accepting(VaryingNumbers& varying) const;
+
   /// Names of the keys in this table that the scene gives, in file order: for tables whose keys the user names.
   std::vector<std::string> names() const;
   /// A table that others read (the test runner, say): known here, its keys not judged.
   void leave(std::string_view name);
 
-  bool has(std::string_view name) const;  ///< does the scene say it?
-  bool describing() const;                ///< true when keys are being listed and no scene is there
+  bool has(std::string_view name) const;       ///< does the scene say it?
+  bool is_table(std::string_view name) const;  ///< does it say it, and as a table?
+  bool describing() const;                     ///< true when keys are being listed and no scene is there
   /// Reports something wrong with this key (or with this table for name ""), at its line; `advice` is the next action.
   void error(std::string_view name, const std::string& message, const std::string& advice = "");
   /// A file named in a scene, relative to the scene's own folder; reports one that is not there. "" when it is not.
@@ -127,6 +140,7 @@ class Section {
   Section(std::shared_ptr<SceneText> scene, std::string path) : scene_(std::move(scene)), path_(std::move(path)) {}
   std::shared_ptr<SceneText> scene_;
   std::string path_;
+  VaryingNumbers* varying_ = nullptr;
 };
 
 /// A scene's text with its overrides. Every rank holds the same text and walks it alike; files that it names are read

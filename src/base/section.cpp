@@ -15,6 +15,7 @@ namespace titin {
 
 void Section::read(std::string_view name, double& value, Key key) {
   const AskedKey asked = ask(*scene_, path_, name, key, "number", units::text(value, key.unit));
+  if (asked.node && asked.node->is_table() && varying_) return varying_->read(*this, name, value, key);
   if (asked.node)
     if (const Numbers x = numbers(asked, 1)) value = x->front();
   asked.keep_numbers({value}, false);
@@ -106,6 +107,12 @@ void Section::choose_word(std::string_view name, int& index, const std::vector<s
   asked.keep(index < 0 ? "" : toml_string(words[index]));
 }
 
+Section Section::accepting(VaryingNumbers& varying) const {
+  Section same = *this;
+  same.varying_ = &varying;
+  return same;
+}
+
 Section Section::section(std::string_view name, std::string_view doc) {
   scene_->ask(path_, name);
   const std::string path = join_path(path_, name);
@@ -144,6 +151,11 @@ bool Section::has(std::string_view name) const {
   const bool there = scene_->find(path_, name) != nullptr;
   if (!there) scene_->absent.insert(join_path(path_, name));
   return there;
+}
+
+bool Section::is_table(std::string_view name) const {
+  const toml::node* node = scene_->find(path_, name);
+  return node && node->is_table();
 }
 
 bool Section::describing() const { return scene_->describing; }

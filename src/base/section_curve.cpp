@@ -26,7 +26,7 @@ class Curve {
     const bool has_file = section_.has("file"), has_points = section_.has("time") || section_.has("value");
     if (has_file == has_points) {
       asked_.complain(has_file ? "has both a file and points" : "has no points", "give either time and value, or file");
-      for (const char* name : {"time", "value", "file", "scale"}) asked_.scene.ask(section_.path(), name);
+      for (const char* name : {"time", "value", "file", "column", "scale"}) asked_.scene.ask(section_.path(), name);
       return std::nullopt;
     }
     const bool has_scale = section_.has("scale");
@@ -60,12 +60,13 @@ class Curve {
   }
 
   bool read_file(std::vector<double>& time, std::vector<double>& value, const std::string& unit) {
-    std::string file;
-    section_.read("file", file, {.doc = "two columns: time in s and value, or headed by their units: t [ms], u [mm]"});
+    std::string file, column;
+    section_.read("file", file, {.doc = "columns of time in s and values, or headed by their units: t [ms], u [mm]"});
+    section_.read("column", column, {.doc = "name of the values' column where there are more than two"});
     const std::string path = section_.existing_file("file", file);
     if (path.empty()) return false;
     const TextFile text = read_text_file(path);
-    Columns columns = parse_columns(text.text, unit);
+    Columns columns = parse_columns(text.text, unit, column);
     const std::string problem = text.problem.empty() ? columns.problem : text.problem;
     if (!problem.empty()) section_.error("file", fmt::format("file {}: {}", in_quotes(file), problem), columns.advice);
     time = std::move(columns.time);

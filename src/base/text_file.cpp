@@ -1,8 +1,10 @@
 #include "base/text_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -121,6 +123,14 @@ std::string add_row(const std::vector<std::string_view>& words, NumberTable& tab
   return "";
 }
 
+/// Lines of the preface of a storage or motion file, "endheader" included; 0 for other files.
+int skip_preface(const std::vector<std::string_view>& rows, bool& in_degrees) {
+  const auto end = std::find_if(rows.begin(), rows.end(), [](auto row) { return trim(row) == "endheader"; });
+  if (end == rows.end()) return 0;
+  in_degrees = std::any_of(rows.begin(), end, [](auto row) { return trim(row) == "inDegrees=yes"; });
+  return static_cast<int>(end - rows.begin()) + 1;
+}
+
 /// The first row: as many columns as it has numbers, named by the head if that has as many.
 std::string begin(NumberTable& table, std::vector<NumberTable::Column> head, std::size_t columns) {
   if (head.size() != columns && names_units(head) && table.head > 0)
@@ -145,9 +155,10 @@ std::string file_problem(const std::string& path) { return broadcast(is_root() ?
 NumberTable parse_numbers(const std::string& text) {
   NumberTable table;
   std::vector<NumberTable::Column> head;
-  int line = 0;
-  for (const std::string_view row : split(text, '\n')) {
-    ++line;
+  const auto rows = split(text, '\n');
+  const int begin_of_table = skip_preface(rows, table.in_degrees);
+  for (int line = begin_of_table + 1; line <= static_cast<int>(rows.size()); ++line) {
+    const std::string_view row = rows[line - 1];
     const auto words = columns_of(row);
     const bool is_comment = words.empty() && row.find('#') != std::string_view::npos;
     if (table.columns.empty() && is_comment && table.head == 0) {
@@ -185,23 +196,61 @@ std::string time_problem(const NumberTable& table, std::size_t column) {
   return "";
 }
 
-Columns parse_columns(const std::string& text, const std::string& value_unit) {
-  NumberTable table = parse_numbers(text);
-  Columns columns{{}, {}, table.problem, "write two columns: time in s, increasing, and value"};
-  if (columns.problem.empty() && table.columns.size() != 2)
+int find_column(const NumberTable& table, std::string_view name) {
+  const auto named = [&](const auto& column) { return column.name == name; };
+  const auto it = std::find_if(table.columns.begin(), table.columns.end(), named);
+  return it == table.columns.end() ? -1 : static_cast<int>(it - table.columns.begin());
+}
+
+std::string column_advice(const NumberTable& table, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& column : table.columns)
+    if (!column.name.empty()) names.push_back(column.name);
+  if (names.empty()) return "head the columns with their names";
+  const std::string meant = nearest(name, names);
+  const std::string has = "it has: " + printable(fmt::format("{}", fmt::join(names, ", ")));
+  return meant.empty() ? has : fmt::format("did you mean \"{}\"? {}", meant, has);
+}
+
+namespace {
+
+/// Columns of the times and of the values; says what is wrong.
+std::array<int, 2> choose_columns(const NumberTable& table, const std::string& name, Columns& columns) {
+  int time = std::max({find_column(table, "time"), find_column(table, "t"), 0}), value = time == 0 ? 1 : 0;
+  if (name.empty()) {
+    if (table.columns.size() == 2) return {time, value};
     columns.problem = fmt::format("line {}: has {}, not two (time, value)", table.lines.front(),
                                   count(table.columns.size(), "column"));
+    if (table.columns.size() > 2) columns.advice = "name the values: column = \"...\"; " + column_advice(table, "");
+    return {};
+  }
+  value = find_column(table, name);
+  if (value >= 0) return {time, value};
+  columns.problem = fmt::format("no column {}", in_quotes(name));
+  columns.advice = column_advice(table, name);
+  return {};
+}
+
+}  // namespace
+
+Columns parse_columns(const std::string& text, const std::string& value_unit, const std::string& column) {
+  NumberTable table = parse_numbers(text);
+  Columns columns{{}, {}, table.problem, "write two columns: time in s, increasing, and value"};
+  if (!columns.problem.empty()) return columns;
+  const auto chosen = choose_columns(table, column, columns);
   const std::string wanted[] = {"s", value_unit};
   for (int i = 0; i < 2 && columns.problem.empty(); ++i) {
-    columns.problem = convert_column(table, i, wanted[i]);
+    auto& unit = table.columns[chosen[i]].unit;
+    if (i == 1 && unit.empty() && table.in_degrees && value_unit == "rad") unit = "degree";
+    columns.problem = convert_column(table, chosen[i], wanted[i]);
     if (!columns.problem.empty())
       columns.advice =
           fmt::format("name the unit of {}, such as [{}]", units::noun(wanted[i]), wanted[i].empty() ? "%" : wanted[i]);
   }
-  if (columns.problem.empty()) columns.problem = time_problem(table, 0);
+  if (columns.problem.empty()) columns.problem = time_problem(table, chosen[0]);
   if (!columns.problem.empty()) return columns;
-  columns.time = std::move(table.columns[0].values);
-  columns.value = std::move(table.columns[1].values);
+  columns.time = std::move(table.columns[chosen[0]].values);
+  columns.value = std::move(table.columns[chosen[1]].values);
   return columns;
 }
 

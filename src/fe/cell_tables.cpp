@@ -17,10 +17,12 @@ std::vector<std::array<int, 3>> monomials(int d) {
 
 }  // namespace
 
+const mfem::IntegrationRule& cell_rule(int points) { return mfem::IntRules.Get(mfem::Geometry::CUBE, 2 * points - 1); }
+
 CellTables::CellTables(const mfem::ParFiniteElementSpace& space, int order, int points)
     : order_(order), modes_(static_cast<int>(monomials(order - 1).size())) {
   const mfem::FiniteElement& element = *space.GetFE(0);
-  rule_ = &mfem::IntRules.Get(mfem::Geometry::CUBE, 2 * points - 1);
+  rule_ = &cell_rule(points);
   nodes_ = element.GetDof();
   padded_ = (nodes_ + pack - 1) / pack * pack;
   points_ = rule_->GetNPoints();

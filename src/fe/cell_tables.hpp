@@ -8,6 +8,9 @@
 
 namespace titin {
 
+/// The Gauss points of a hexahedron, `points` a direction.
+const mfem::IntegrationRule& cell_rule(int points);
+
 class CellTables {
  public:
   /// `order` k of the displacement; `points` Gauss points per direction.

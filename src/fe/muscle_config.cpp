@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "base/words.hpp"
+#include "fe/cell_tables.hpp"
 
 namespace titin {
 
@@ -77,6 +78,12 @@ void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
     if (!materials.empty() && !material_of_region.count(attribute))
       root.error("materials", fmt::format("region {} has no material", in_quotes(region)),
                  "name it in the regions of one");
+  std::map<int, std::shared_ptr<const Material>> of_attribute;
+  for (const auto& [region, attribute] : mesh.regions) {
+    if (!material_of_region.count(attribute)) return;
+    of_attribute[attribute] = materials.at(material_of_region.at(attribute));
+  }
+  point_fields = PointFields(*mesh.mesh, of_attribute, cell_rule(points()));
 }
 
 /// Returns false when it reported one.

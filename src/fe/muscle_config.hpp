@@ -8,6 +8,7 @@
 
 #include "fe/loads.hpp"
 #include "fe/observers.hpp"
+#include "fe/point_fields.hpp"
 #include "materials/material.hpp"
 #include "mesh/mesh.hpp"
 #include "solve/newton.hpp"
@@ -29,6 +30,7 @@ struct MuscleConfig {
   std::vector<AverageConfig> averages;
   std::map<std::string, std::shared_ptr<const Material>> materials;
   std::map<int, std::string> material_of_region;  // by mesh attribute
+  PointFields point_fields;
   NewtonConfig newton;
 
   int points() const { return quadrature > 0 ? quadrature : order + 1; }

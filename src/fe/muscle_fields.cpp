@@ -72,7 +72,7 @@ void MuscleFields::update_points(int cell, const Material& material, const Three
   material.stress(in, P.data(), nullptr);
   for (int q = 0; q < in.n; ++q) {
     const Mat3& F = kernel.F()[q];
-    const Vec3 a = multiply(F, material.fibre());
+    const Vec3 a = multiply(F, in.fibre[q]);
     const double length = material.has_fibres() ? norm(a) : 1.0;
     for (int i = 0; i < 3; ++i) direction[3 * q + i] = a[i] / length;
     const Mat3 PF = multiply(P[q], transpose(F));  // Cauchy stress: P F^T / J + p I

@@ -25,7 +25,8 @@ MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system) {
     std::vector<int> accounts;
     for (const TermInfo& term : material->terms()) {
       accounts.push_back(static_cast<int>(terms_.size()));
-      terms_.push_back({one ? term.name : name + "_" + term.name, term.stores_energy, term.dissipates});
+      terms_.push_back({one ? term.name : name + "_" + term.name, term.stores_energy, term.dissipates,
+                        term.stores_energy && term.has_curves});
     }
     for (const auto& [attribute, region_material] : config.material_of_region)
       if (region_material == name) terms_of_region_[attribute] = accounts;
@@ -119,6 +120,7 @@ void MuscleHistory::add_terms(int cell, const Material& material, const ThreeFie
     else
       material.term_stress(term, in, P.data());
     if (account.dissipates) material.term_dissipation(term, in.n, in.new_history, D.data());
+    if (account.has_curves) account.from_curves += energy_of_curves(cell, term, material, kernel, in);
     for (int q = 0; q < in.n; ++q) {
       const double w = system_.tables().weight(cell, q);
       if (account.stored) account.value += w * W[q];
@@ -129,6 +131,20 @@ void MuscleHistory::add_terms(int cell, const Material& material, const ThreeFie
   }
 }
 
+/// What the change of a term's numbers in this step adds to its energy, at the deformation before the step.
+double MuscleHistory::energy_of_curves(int cell, int term, const Material& material, const ThreeField& kernel,
+                                       PointInput in) const {
+  if (!(in.dt > 0)) return 0;
+  std::vector<double> before(in.n), after(in.n);
+  in.F = kernel.F_old().data();
+  material.term_energy(term, in, after.data());
+  in.time -= in.dt;
+  material.term_energy(term, in, before.data());
+  double energy = 0;
+  for (int q = 0; q < in.n; ++q) energy += system_.tables().weight(cell, q) * (after[q] - before[q]);
+  return energy;
+}
+
 void MuscleHistory::add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in) {
   if (cell_means_[cell].empty()) return;
   std::vector<double> stretch(in.n), rate(in.n), activation(in.n);
@@ -136,7 +152,7 @@ void MuscleHistory::add_means(int cell, const Material& material, const ThreeFie
   const Vec3 axis = system_.config().pennation_axis;
   for (int q = 0; q < in.n; ++q) {
     const double w = system_.tables().weight(cell, q) * kernel.J()[q];
-    const Vec3 a = multiply(kernel.F()[q], material.fibre());
+    const Vec3 a = multiply(kernel.F()[q], in.fibre[q]);
     const double cosine = std::clamp(dot(a, axis) / (norm(a) * norm(axis)), -1.0, 1.0);
     for (int m : cell_means_[cell]) {
       means_[m].volume += w;
@@ -175,6 +191,11 @@ std::vector<Quantity> MuscleHistory::quantities() const {
     const double value = sum(term.value);
     (term.stored ? stored : done) += value;
     list.push_back({(term.stored ? "energy_" : "work_") + term.name, "J", value});
+    if (term.has_curves) {
+      const double brought = sum(term.from_curves);
+      done -= brought;
+      list.push_back({"work_parameters_" + term.name, "J", brought});
+    }
     if (!term.dissipates) continue;
     const double dissipated = sum(term.dissipated);
     done += dissipated;

@@ -33,7 +33,8 @@ class MuscleHistory {
   struct TermAccount {
     std::string name;
     bool stored, dissipates;
-    double value = 0, dissipated = 0;
+    bool has_curves = false;  ///< stores energy that a change of its parameters brings
+    double value = 0, dissipated = 0, from_curves = 0;
   };
   struct Mean {
     std::string name;
@@ -42,6 +43,7 @@ class MuscleHistory {
   };
   void add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in, const double* v);
   void add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
+  double energy_of_curves(int cell, int term, const Material& material, const ThreeField& kernel, PointInput in) const;
   void add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
   void add_boundary_work(const mfem::Vector& u, const mfem::Vector& u_old);
   void take_means();

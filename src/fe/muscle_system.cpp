@@ -111,10 +111,15 @@ void MuscleSystem::start_history() {
   rest.n = 1;
   rest.F = rest.F_old = &identity;
   for (int cell = 0; cell < space_.GetNE(); ++cell) {
-    const Vec3 fibre = material(cell).fibre();
-    rest.fibre = &fibre;
-    for (int q = 0; q < tables_.points(); ++q)
+    const Vec3 fibre = material(cell).fibre(), second_fibre = material(cell).second_fibre();
+    PointInput at_points = rest;
+    config_.point_fields.set(cell, at_points);
+    for (int q = 0; q < tables_.points(); ++q) {
+      rest.fibre = at_points.fibre ? at_points.fibre + q : &fibre;
+      rest.second_fibre = at_points.second_fibre ? at_points.second_fibre + q : &second_fibre;
+      rest.fields = at_points.fields ? at_points.fields + q * material(cell).fields().numbers.size() : nullptr;
       material(cell).start_history(rest, history_.now(cell) + q * row_size[cell]);
+    }
   }
   history_.commit();
 }
@@ -151,6 +156,7 @@ PointInput MuscleSystem::point_input(int cell) const {
   in.rate = step_.dt > 0 ? config_.rate() : FibreRate::none;
   in.history = history_.old(cell);
   in.new_history = history_.now(cell);
+  config_.point_fields.set(cell, in);
   return in;
 }
 

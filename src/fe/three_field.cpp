@@ -67,6 +67,7 @@ ThreeField::ThreeField(const CellTables& tables)
       P_(tables.points()),
       A_(tables.points()),
       fibre_(tables.points()),
+      second_fibre_(tables.points()),
       J_(tables.points()),
       D_(tables.points()),
       p_(tables.points()),
@@ -94,6 +95,7 @@ bool ThreeField::deform(int cell, const Material& material, const double* u, con
   }
   project(cell, dU_, p_);
   std::fill(fibre_.begin(), fibre_.end(), material.fibre());
+  std::fill(second_fibre_.begin(), second_fibre_.end(), material.second_fibre());
   return bad_point_ < 0;
 }
 
@@ -117,7 +119,8 @@ PointInput ThreeField::points(PointInput in) const {
   in.n = tables_.points();
   in.F = F_.data();
   in.F_old = F_old_.data();
-  in.fibre = fibre_.data();
+  if (!in.fibre) in.fibre = fibre_.data();
+  if (!in.second_fibre) in.second_fibre = second_fibre_.data();
   return in;
 }
 

@@ -44,6 +44,8 @@ class GrownMaterial final : public Material {
   /// Per volume before growth: new tissue brings its mass, swelling none.
   double density() const override { return growth_.weight() * inside_->density(); }
   Vec3 fibre() const override { return inside_->fibre(); }
+  Vec3 second_fibre() const override { return inside_->second_fibre(); }
+  const MaterialFields& fields() const override { return inside_->fields(); }
   bool has_fibres() const override { return inside_->has_fibres(); }
   bool has_volumetric_law() const override { return inside_->has_volumetric_law(); }
   bool symmetric_tangent(FibreRate rate) const override { return inside_->symmetric_tangent(rate); }

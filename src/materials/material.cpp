@@ -6,6 +6,7 @@
 #include "materials/growth.hpp"
 #include "materials/material_advice.hpp"
 #include "materials/memory_material.hpp"
+#include "materials/spatial_field.hpp"
 #include "materials/sum_material.hpp"
 
 namespace titin {
@@ -28,8 +29,8 @@ const Entry* choose_law(Section& s, const std::vector<Entry>& entries, const cha
   return chosen < 0 || s.describing() ? nullptr : &entries[chosen];
 }
 
-TermOptions read_options(Section& s, const LawEntry* entry, FibreMeasure measure) {
-  TermOptions options{measure, FibreFamily::first};
+TermOptions read_options(Section& s, const LawEntry* entry, SumMaterial::Parts& parts) {
+  TermOptions options{parts.measure, FibreFamily::first, &parts.fields};
   if (s.describing() || (entry && entry->either_family))
     s.choose("family", options.family, {{"first", FibreFamily::first}, {"second", FibreFamily::second}},
              {.doc = "fibre laws: along `fibre` or along `second_fibre`"});
@@ -38,7 +39,7 @@ TermOptions read_options(Section& s, const LawEntry* entry, FibreMeasure measure
 
 bool read_term(const std::string& name, Section s, double weight, SumMaterial::Parts& parts) {
   const LawEntry* entry = choose_law(s, law_entries(), nullptr, "see `titin materials` for the laws and their keys");
-  const TermOptions options = read_options(s, entry, parts.measure);
+  const TermOptions options = read_options(s, entry, parts);
   if (s.describing()) read_wrappers(s, nullptr, options);
   if (!entry) return false;
   const auto same = [&](const WeightedTerm& t) { return t.info.name == name; };
@@ -47,8 +48,12 @@ bool read_term(const std::string& name, Section s, double weight, SumMaterial::P
             "terms of a material and of its mix share names: choose another");
   std::shared_ptr<const Term> term = entry->read(s, options);
   std::vector<Wrapper> wrappers = read_wrappers(s, term.get(), options);
-  parts.terms.push_back(
-      {{name, entry->info.name, entry->info.stores_energy}, weight, std::move(term), std::move(wrappers)});
+  const bool remembers = !wrappers.empty(), varies = term->has_curves() || (term->has_fields() && s.has("maxwell"));
+  if (remembers && varies)
+    s.error("", "a law whose numbers vary cannot remember", "give it constants, or drop what is wrapped around it");
+  TermInfo info{name, entry->info.name, entry->info.stores_energy};
+  info.has_curves = term->has_curves();
+  parts.terms.push_back({std::move(info), weight, std::move(term), std::move(wrappers)});
   return !entry->info.needs_volumetric;
 }
 
@@ -87,32 +92,48 @@ void read_constituent(Section s, double weight, SumMaterial::Parts& parts) {
   read_volumetric(s, weight, solid && !resists, parts);
 }
 
-using Needs = bool (Term::*)() const;
-
-void read_direction(Section& s, const char* key, const char* doc, Needs needs, Vec3& direction,
-                    const SumMaterial::Parts& parts) {
+void read_constant_direction(Section& s, const char* key, const char* doc, Vec3& direction) {
   const bool given = s.has(key);
   if (given) direction = {1, 0, 0};  // stays if what is given cannot be read, which is reported there
   s.read(key, direction, {.doc = doc});
   const double length = norm(direction);
   if (given && !(length > 0)) s.error(key, "a fibre of zero length has no direction", "give one such as [1, 0, 0]");
   if (length > 0) direction = {direction[0] / length, direction[1] / length, direction[2] / length};
+}
+
+struct Fibres {
+  const char *key, *doc;
+  bool (Term::*needed)() const;
+};
+
+void read_direction(Section& s, const Fibres& fibres, Vec3& direction, MaterialFields::Pointer& field,
+                    const SumMaterial::Parts& parts) {
+  if (s.is_table(fibres.key) || s.describing()) field = SpatialField::read_directions(s.section(fibres.key));
+  if (s.is_table(fibres.key))
+    direction = field ? field->first_direction() : Vec3{1, 0, 0};
+  else
+    read_constant_direction(s, fibres.key, fibres.doc, direction);
   for (const WeightedTerm& t : parts.terms)
-    if (!given && (t.term.get()->*needs)())
+    if (!s.has(fibres.key) && (t.term.get()->*fibres.needed)())
       return s.error("", "term \"" + t.info.name + "\" (" + t.info.law + ") needs fibres",
-                     std::string("add ") + key + " = [1, 0, 0], say");
+                     std::string("add ") + fibres.key + " = [1, 0, 0], say");
 }
 
 void read_fibres(Section& s, SumMaterial::Parts& parts) {
-  read_direction(s, "fibre", "direction of the fibres in the reference configuration; any length but zero",
-                 &Term::needs_fibre, parts.fibres.first, parts);
-  read_direction(s, "second_fibre", "direction of a second family of fibres, or of sheets", &Term::needs_second_fibre,
-                 parts.fibres.second, parts);
+  read_direction(
+      s, {"fibre", "direction of the fibres in the reference configuration; any length but zero", &Term::needs_fibre},
+      parts.fibres.first, parts.fields.fibre, parts);
+  read_direction(s, {"second_fibre", "direction of a second family of fibres, or of sheets", &Term::needs_second_fibre},
+                 parts.fibres.second, parts.fields.second_fibre, parts);
   constexpr double perpendicular = 1e-3;  // cosine: directions are given to three digits or more
-  for (const WeightedTerm& t : parts.terms)
-    if (t.term->needs_perpendicular_fibres() && std::abs(dot(parts.fibres.first, parts.fibres.second)) > perpendicular)
+  const bool same_everywhere = !parts.fields.fibre && !parts.fields.second_fibre;
+  for (const WeightedTerm& t : parts.terms) {
+    if (!t.term->needs_perpendicular_fibres()) continue;
+    parts.fields.at_right_angles = true;
+    if (same_everywhere && std::abs(dot(parts.fibres.first, parts.fibres.second)) > perpendicular)
       s.error("second_fibre", "is not at a right angle to the fibre, as term \"" + t.info.name + "\" needs",
               "give directions of orthotropy, [1, 0, 0] and [0, 1, 0], say");
+  }
 }
 
 void read_measure(Section& s, SumMaterial::Parts& parts) {

@@ -28,6 +28,17 @@ struct PointInput {
   const Vec3* second_fibre = nullptr;  ///< [n] of the second family; null: the material's own
   const double* history = nullptr;     ///< [n][history_size] at t_n; null: points at rest until now
   double* new_history = nullptr;       ///< the same at t_n+1, written by `stress`; may be null
+  const double* fields = nullptr;      ///< [n][fields of the material] parameters that vary in space; null if none do
+};
+
+class SpatialField;
+/// What of a material varies in space (materials/spatial_field.hpp): whoever owns points finds its values there.
+struct MaterialFields {
+  using Pointer = std::shared_ptr<const SpatialField>;
+  std::vector<Pointer> numbers;  ///< of its laws: PointInput::fields
+  Pointer fibre, second_fibre;   ///< null: the same everywhere
+  bool at_right_angles = false;  ///< a term needs the two directions so
+  bool empty() const { return numbers.empty() && !fibre && !second_fibre; }
 };
 
 /// What a term of a material is called and whether it stores energy (the others do work: active stress).
@@ -35,6 +46,7 @@ struct TermInfo {
   std::string name, law;
   bool stores_energy = true;
   bool dissipates = false;
+  bool has_curves = false;  ///< parameters change in time, and bring or take energy
 };
 
 class Material {
@@ -44,7 +56,9 @@ class Material {
   virtual ~Material() = default;
 
   virtual double density() const = 0;  ///< reference density [kg/m^3]
-  virtual Vec3 fibre() const = 0;      ///< unit reference direction; {0,0,0} without fibres
+  virtual Vec3 fibre() const = 0;      ///< unit reference direction, a first one if it varies; {0,0,0} without fibres
+  virtual Vec3 second_fibre() const = 0;
+  virtual const MaterialFields& fields() const = 0;
   virtual bool has_fibres() const = 0;
   /// Without one, the terms themselves resist changes of volume: nothing for formulations that split it off.
   virtual bool has_volumetric_law() const = 0;

@@ -61,6 +61,7 @@ struct MemoryMaterial::Rows {
       rest.F = rest.F_old = &identity;
       rest.fibre = points.fibre + p;
       rest.second_fibre = points.second_fibre + p;
+      rest.fields = in.fields ? in.fields + p * material.fields().numbers.size() : nullptr;
       material.start_history(rest, &at_rest[p * stride]);
     }
     old = at_rest.data();

@@ -17,6 +17,8 @@ class MemoryMaterial final : public Material {
 
   double density() const override { return elastic_.density(); }
   Vec3 fibre() const override { return elastic_.fibre(); }
+  Vec3 second_fibre() const override { return elastic_.second_fibre(); }
+  const MaterialFields& fields() const override { return elastic_.fields(); }
   bool has_fibres() const override { return elastic_.has_fibres(); }
   bool has_volumetric_law() const override { return elastic_.has_volumetric_law(); }
   bool symmetric_tangent(FibreRate rate) const override { return elastic_.symmetric_tangent(rate); }

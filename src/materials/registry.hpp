@@ -13,6 +13,7 @@
 #include "base/log.hpp"
 #include "materials/power_term.hpp"
 #include "materials/term.hpp"
+#include "materials/variation.hpp"
 
 namespace titin {
 
@@ -51,6 +52,7 @@ class VolumetricLaw {
 struct TermOptions {
   FibreMeasure measure = FibreMeasure::isochoric;  ///< handed to laws with a member of that name
   FibreFamily family = FibreFamily::first;
+  MaterialFields* fields = nullptr;  ///< where parameters that vary in space are listed; null: none may
 };
 
 struct LawEntry {
@@ -93,29 +95,49 @@ LawInfo info() {
   return info;
 }
 
-/// Reads a law's keys and says what it has to say about them.
+/// Reads a law's keys into it and says what it has to say about them.
 template <class Law>
-Law read_law(Section s) {
-  Law law;
+void bind_law(Law& law, Section s) {
   law.bind(s);
   if constexpr (requires { law.advice(); })
     if (!s.describing())
       for (const Advice& a : law.advice())
         logging::warning(fmt::format("{}{}{}: {}", s.path(), a.key.empty() ? "" : ".", a.key, a.text));
+}
+template <class Law>
+Law read_law(Section s) {
+  Law law;
+  bind_law(law, s);
   return law;
 }
 
 template <class Law>
-std::unique_ptr<Term> make_term(Law law, TermOptions options) {
+std::unique_ptr<Term> make_term(Law law, TermOptions options, std::vector<Variation> variations = {}) {
   if constexpr (requires { law.measure = options.measure; }) law.measure = options.measure;
-  if constexpr (InvariantLaw<Law>)
-    return std::make_unique<EnergyTerm<Law>>(std::move(law), options.family);
-  else if constexpr (ForceLaw<Law>)
-    return std::make_unique<ForceTerm<Law>>(std::move(law), options.family);
-  else if constexpr (PowerLaw<Law>)
+  if constexpr (PowerLaw<Law>) {
     return std::make_unique<PowerTerm>(law.powers());
-  else
-    return std::make_unique<FibreTerm<Law>>(std::move(law), options.family);
+  } else {
+    VariedLaw<Law> varied(std::move(law), std::move(variations));
+    if constexpr (InvariantLaw<Law>)
+      return std::make_unique<EnergyTerm<Law>>(std::move(varied), options.family);
+    else if constexpr (ForceLaw<Law>)
+      return std::make_unique<ForceTerm<Law>>(std::move(varied), options.family);
+    else
+      return std::make_unique<FibreTerm<Law>>(std::move(varied), options.family);
+  }
+}
+
+/// Binds a law, whose numbers may be curves or fields, and makes it a term.
+template <class Law>
+std::unique_ptr<Term> read_term(Section s, TermOptions options) {
+  if constexpr (PowerLaw<Law>) {
+    return make_term(read_law<Law>(s), options);
+  } else {
+    Law law;
+    Variations variations(&law, sizeof law, options.fields);
+    bind_law(law, s.accepting(variations));
+    return make_term(std::move(law), options, variations.list());
+  }
 }
 
 template <class Law>
@@ -134,8 +156,7 @@ bool register_law() {
     info.needs_volumetric = !uses.has(Invariant::J);
   info.kind = !info.stores_energy ? "active" : info.needs_fibre ? "fibre" : "matrix";
   const bool either = uses.has(Invariant::I4) && !uses.has_any({Invariant::I5, Invariant::I6, Invariant::I8});
-  return add(LawEntry{std::move(info), either,
-                      [](Section s, TermOptions options) { return make_term(read_law<Law>(s), options); }});
+  return add(LawEntry{std::move(info), either, read_term<Law>});
 }
 
 template <class Law>

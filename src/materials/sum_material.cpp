@@ -43,6 +43,8 @@ class Block {
     points.n = std::min(block_size, in.n - first);
     points.time = in.time;
     points.F = in.F + first;
+    points.field_count = static_cast<int>(parts.fields.numbers.size());
+    if (in.fields) points.fields = in.fields + first * points.field_count;
     for (const FamilyInvariants& family : families) points.excess[index(family.rate)].fill(0);
     for (int g = 0; g < active_groups(); ++g) set_group(in, parts.fibres, g);
   }

@@ -32,11 +32,14 @@ class SumMaterial final : public Material {
     FibreMeasure measure = FibreMeasure::isochoric;
     std::vector<WeightedTerm> terms;
     std::vector<WeightedVolumetric> volumetric;
+    MaterialFields fields;
   };
   explicit SumMaterial(Parts parts);
 
   double density() const override { return parts_.density; }
   Vec3 fibre() const override { return parts_.fibres.first; }
+  Vec3 second_fibre() const override { return parts_.fibres.second; }
+  const MaterialFields& fields() const override { return parts_.fields; }
   bool has_fibres() const override { return used_.has_any({Invariant::I4, Invariant::I5, Invariant::I8}); }
   bool has_volumetric_law() const override { return !parts_.volumetric.empty(); }
   bool symmetric_tangent(FibreRate rate) const override;

@@ -17,6 +17,7 @@
 #include <span>
 
 #include "materials/invariants.hpp"
+#include "materials/variation.hpp"
 #include "math/dual.hpp"
 
 namespace titin {
@@ -30,6 +31,8 @@ struct PointBlock {
   int n = 0;
   double time = 0;          ///< t_n+1 [s]
   const Mat3* F = nullptr;  ///< for terms that are not written in invariants
+  int field_count = 0;
+  const double* fields = nullptr;  ///< [n][field_count] parameters that vary in space
   alignas(64) PerInvariant<BlockValues> excess;
 };
 
@@ -61,6 +64,8 @@ class Term {
     add_energy(points, weight, sum);
   }
   virtual double activation(double /*time*/) const { return 0; }
+  virtual bool has_curves() const { return false; }  ///< parameters change in time
+  virtual bool has_fields() const { return false; }  ///< parameters vary in space
 };
 
 /// What an energy is a function of: I1 - 3, I2 - 3, J - 1, I4 - 1, I5 - 1, I6 - 1, I8 - a0 . b0.
@@ -113,7 +118,7 @@ inline InvariantSet set_of(std::span<const Invariant> slots) {
 template <InvariantLaw Law>
 class EnergyTerm final : public Term {
  public:
-  EnergyTerm(Law law, FibreFamily family) : law_(std::move(law)), slots_(slots_of<Law>(family)) {}
+  EnergyTerm(VariedLaw<Law> law, FibreFamily family) : law_(std::move(law)), slots_(slots_of<Law>(family)) {}
   bool stores_energy() const override { return true; }
   InvariantSet uses() const override { return set_of(slots_); }
   bool needs_perpendicular_fibres() const override {
@@ -126,12 +131,16 @@ class EnergyTerm final : public Term {
       add<1>(points, weight, sum);
   }
   void add_energy(const PointBlock& points, double weight, double* sum) const override {
-    for (int p = 0; p < points.n; ++p) {
-      Invariants<double> x;
-      for (int a = 0; a < M; ++a) x.excess[index(Law::uses[a])] = points.excess[index(slots_[a])][p];
-      sum[p] += weight * law_.energy(x);
-    }
+    law_.visit(points, [&](const Law& law, int p, int end) {
+      for (; p < end; ++p) {
+        Invariants<double> x;
+        for (int a = 0; a < M; ++a) x.excess[index(Law::uses[a])] = points.excess[index(slots_[a])][p];
+        sum[p] += weight * law.energy(x);
+      }
+    });
   }
+  bool has_curves() const override { return law_.has_curves(); }
+  bool has_fields() const override { return law_.has_fields(); }
 
  private:
   static constexpr int M = static_cast<int>(Law::uses.size());
@@ -139,21 +148,23 @@ class EnergyTerm final : public Term {
   template <int order>
   void add(const PointBlock& points, double weight, DerivativeBlock& sum) const {
     using Number = Dual<M, order>;
-    for (int p = 0; p < points.n; ++p) {
-      Invariants<Number> x;
-      for (int a = 0; a < M; ++a)
-        x.excess[index(Law::uses[a])] = Number::variable(points.excess[index(slots_[a])][p], a);
-      const Number W = law_.energy(x);
-      for (int a = 0; a < M; ++a) {
-        const int row = index(slots_[a]);
-        sum.first[row][p] += weight * W.gradient[a];
-        if constexpr (order == 2)
-          for (int b = 0; b < M; ++b) sum.second[row][index(slots_[b])][p] += weight * W.hessian[Number::pair(a, b)];
+    law_.visit(points, [&](const Law& law, int p, int end) {
+      for (; p < end; ++p) {
+        Invariants<Number> x;
+        for (int a = 0; a < M; ++a)
+          x.excess[index(Law::uses[a])] = Number::variable(points.excess[index(slots_[a])][p], a);
+        const Number W = law.energy(x);
+        for (int a = 0; a < M; ++a) {
+          const int row = index(slots_[a]);
+          sum.first[row][p] += weight * W.gradient[a];
+          if constexpr (order == 2)
+            for (int b = 0; b < M; ++b) sum.second[row][index(slots_[b])][p] += weight * W.hessian[Number::pair(a, b)];
+        }
       }
-    }
+    });
   }
 
-  Law law_;
+  VariedLaw<Law> law_;
   std::array<Invariant, M> slots_;
 };
 
@@ -161,36 +172,36 @@ class EnergyTerm final : public Term {
 template <ForceLaw Law>
 class ForceTerm final : public Term {
  public:
-  ForceTerm(Law law, FibreFamily family) : law_(std::move(law)), slots_(slots_of<Law>(family)) {}
+  ForceTerm(VariedLaw<Law> law, FibreFamily family) : law_(std::move(law)), slots_(slots_of<Law>(family)) {}
   bool stores_energy() const override { return false; }
-  bool symmetric() const override { return law_.symmetric(); }
+  /// Numbers that vary may lose it somewhere, sometime.
+  bool symmetric() const override { return !has_curves() && !has_fields() && law_.first().symmetric(); }
   InvariantSet uses() const override { return set_of(slots_); }
   void add_derivatives(const PointBlock& points, double weight, DerivativeBlock& sum) const override {
     using Number = Dual<M, 1>;
-    for (int p = 0; p < points.n; ++p) {
-      Invariants<Number> x;
-      for (int a = 0; a < M; ++a)
-        x.excess[index(Law::uses[a])] = Number::variable(points.excess[index(slots_[a])][p], a);
-      const std::array<Number, M> W = law_.forces(x, points.time);
-      for (int a = 0; a < M; ++a) {
-        const int row = index(slots_[a]);
-        sum.first[row][p] += weight * W[a].value;
-        if (!sum.want_second) continue;
-        for (int b = 0; b < M; ++b) sum.second[row][index(slots_[b])][p] += weight * W[a].gradient[b];
+    law_.visit(points, [&](const Law& law, int p, int end) {
+      for (; p < end; ++p) {
+        Invariants<Number> x;
+        for (int a = 0; a < M; ++a)
+          x.excess[index(Law::uses[a])] = Number::variable(points.excess[index(slots_[a])][p], a);
+        const std::array<Number, M> W = law.forces(x, points.time);
+        for (int a = 0; a < M; ++a) {
+          const int row = index(slots_[a]);
+          sum.first[row][p] += weight * W[a].value;
+          if (!sum.want_second) continue;
+          for (int b = 0; b < M; ++b) sum.second[row][index(slots_[b])][p] += weight * W[a].gradient[b];
+        }
       }
-    }
+    });
   }
   void add_energy(const PointBlock&, double, double*) const override {}
-  double activation(double time) const override {
-    if constexpr (requires { law_.activation(time); })
-      return law_.activation(time);
-    else
-      return 0;
-  }
+  double activation(double time) const override { return law_.activation(time); }
+  bool has_curves() const override { return law_.has_curves(); }
+  bool has_fields() const override { return law_.has_fields(); }
 
  private:
   static constexpr int M = static_cast<int>(Law::uses.size());
-  Law law_;
+  VariedLaw<Law> law_;
   std::array<Invariant, M> slots_;
 };
 
@@ -198,7 +209,7 @@ class ForceTerm final : public Term {
 template <FibreLaw Law>
 class FibreTerm final : public Term {
  public:
-  FibreTerm(Law law, FibreFamily family)
+  FibreTerm(VariedLaw<Law> law, FibreFamily family)
       : law_(std::move(law)), slots_(families[family == FibreFamily::second ? 1 : 0]) {}
   bool stores_energy() const override { return StoringFibreLaw<Law>; }
   InvariantSet uses() const override {
@@ -211,40 +222,43 @@ class FibreTerm final : public Term {
     constexpr int M = Law::uses_rate ? 2 : 1;
     using Number = Dual<M, 1>;
     const int i4 = index(slots_.square), ir = index(slots_.rate);
-    for (int p = 0; p < points.n; ++p) {
-      const double I4 = 1 + points.excess[i4][p], stretch = std::sqrt(I4), half = 0.5 * weight / I4;
-      Number rate = 0;
-      if constexpr (Law::uses_rate) rate = Number::variable(points.excess[ir][p], 1);
-      const Number stress = law_.fibre_stress(Number::variable(stretch, 0), rate, points.time);
-      sum.first[i4][p] += half * stress.value;
-      if (!sum.want_second) continue;
-      sum.second[i4][i4][p] += half * (0.5 * stretch * stress.gradient[0] - stress.value) / I4;
-      if constexpr (Law::uses_rate) sum.second[i4][ir][p] += half * stress.gradient[1];
-    }
+    law_.visit(points, [&](const Law& law, int p, int end) {
+      for (; p < end; ++p) {
+        const double I4 = 1 + points.excess[i4][p], stretch = std::sqrt(I4), half = 0.5 * weight / I4;
+        Number rate = 0;
+        if constexpr (Law::uses_rate) rate = Number::variable(points.excess[ir][p], 1);
+        const Number stress = law.fibre_stress(Number::variable(stretch, 0), rate, points.time);
+        sum.first[i4][p] += half * stress.value;
+        if (!sum.want_second) continue;
+        sum.second[i4][i4][p] += half * (0.5 * stretch * stress.gradient[0] - stress.value) / I4;
+        if constexpr (Law::uses_rate) sum.second[i4][ir][p] += half * stress.gradient[1];
+      }
+    });
   }
   void add_energy(const PointBlock& points, double weight, double* sum) const override {
     if constexpr (StoringFibreLaw<Law>)
-      for (int p = 0; p < points.n; ++p) sum[p] += weight * law_.energy(stretch(points, p));
+      law_.visit(points, [&](const Law& law, int p, int end) {
+        for (; p < end; ++p) sum[p] += weight * law.energy(stretch(points, p));
+      });
   }
   void add_potential(const PointBlock& points, double weight, double* sum) const override {
-    if constexpr (requires { law_.potential(1.0, 0.0); })
-      for (int p = 0; p < points.n; ++p) sum[p] += weight * law_.potential(stretch(points, p), points.time);
+    if constexpr (requires(const Law& law) { law.potential(1.0, 0.0); })
+      law_.visit(points, [&](const Law& law, int p, int end) {
+        for (; p < end; ++p) sum[p] += weight * law.potential(stretch(points, p), points.time);
+      });
     else
       add_energy(points, weight, sum);
   }
-  double activation(double time) const override {
-    if constexpr (requires { law_.activation(time); })
-      return law_.activation(time);
-    else
-      return 0;
-  }
+  double activation(double time) const override { return law_.activation(time); }
+  bool has_curves() const override { return law_.has_curves(); }
+  bool has_fields() const override { return law_.has_fields(); }
 
  private:
   double stretch(const PointBlock& points, int p) const {
     return std::sqrt(1 + points.excess[index(slots_.square)][p]);
   }
 
-  Law law_;
+  VariedLaw<Law> law_;
   FamilyInvariants slots_;
 };
 

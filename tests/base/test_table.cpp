@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "base/table.hpp"
 #include "base/text_file.hpp"
 
@@ -65,6 +67,34 @@ TEST(Columns, RefuseUnitsThatDoNotFit) {
   EXPECT_EQ(problem_and_advice("t [s], u [mm]\n0 0\n", ""),
             "column \"u\": \"mm\" is not the unit of a pure number; name the unit of a pure number, such as [%]");
   EXPECT_EQ(problem("t [s], u, v\n0 0\n"), "line 1: heads 3 columns, and 2 follow");
+}
+
+/// As OpenSim writes storage and motion files.
+const std::string storage =
+    "controls\nversion=1\nnRows=3\nnColumns=4\ninDegrees=yes\n\nUnits are S.I. units (second, meters)\nendheader\n"
+    "time\tsoleus/activation\ttib_ant/activation\tankle_angle\n0.0\t0.02\t0.5\t0\n 0.1\t0.3\t0.4\t-180\n"
+    "0.2\t1.0\t0.1\t90\n";
+
+TEST(Columns, AreTakenByNameFromStorageFiles) {
+  const Columns c = parse_columns(storage, "", "tib_ant/activation");
+  EXPECT_EQ(c.problem, "");
+  EXPECT_EQ(c.time, (std::vector<double>{0, 0.1, 0.2}));
+  EXPECT_EQ(c.value, (std::vector<double>{0.5, 0.4, 0.1}));
+  const Columns angle = parse_columns(storage, "rad", "ankle_angle");
+  EXPECT_NEAR(angle.value[1], -std::numbers::pi, 1e-15) << "inDegrees=yes";
+  const Columns later = parse_columns("u [mm], time [ms], v [mm]\n1, 0, 2\n3, 10, 4\n", "m", "v");
+  EXPECT_EQ(later.time, (std::vector<double>{0, 0.01})) << "the times are in the column of that name";
+  EXPECT_EQ(later.value, (std::vector<double>{0.002, 0.004}));
+}
+
+TEST(Columns, SayWhichThereAre) {
+  const Columns misspelt = parse_columns(storage, "", "tib_ant/activaton"), unnamed = parse_columns(storage, "");
+  EXPECT_EQ(misspelt.problem, "no column \"tib_ant/activaton\"");
+  EXPECT_EQ(misspelt.advice,
+            "did you mean \"tib_ant/activation\"? it has: time, soleus/activation, tib_ant/activation, ankle_angle");
+  EXPECT_EQ(unnamed.problem, "line 10: has 4 columns, not two (time, value)");
+  EXPECT_EQ(unnamed.advice,
+            "name the values: column = \"...\"; it has: time, soleus/activation, tib_ant/activation, ankle_angle");
 }
 
 TEST(NumberTable, KeepsItsNames) {
