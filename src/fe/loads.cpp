@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "base/parallel.hpp"
@@ -15,7 +16,7 @@ namespace titin {
 bool BoundaryConfig::loaded() const {
   const bool has_traction = traction != std::array<double, 3>{0, 0, 0};
   const bool has_pressure = !pressure.is_constant() || pressure(0) != 0;
-  return has_traction || has_pressure;
+  return has_traction || has_pressure || support.given();
 }
 
 void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
@@ -39,6 +40,7 @@ void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
   s.read("traction_scale", traction_scale, {.doc = "factor of the traction, constant or in time"});
   s.read("pressure", pressure,
          {.unit = "Pa", .doc = "follower pressure on the deformed surface, positive when it pushes"});
+  support.bind(s);
 }
 
 Constraints::Constraints(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh,
@@ -80,6 +82,7 @@ FaceLoads::FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedM
     const auto marker = mesh.boundary_marker(boundary.on);
     for (int i = 0; i < mesh.mesh->GetNBE(); ++i)
       if (marker[mesh.mesh->GetBdrAttribute(i) - 1]) add_face(i, boundary, rule, *mesh.mesh, *space.GetFE(0));
+    set_areas(boundary);
   }
 }
 
@@ -87,8 +90,8 @@ void FaceLoads::add_face(int boundary_face, const BoundaryConfig& load, const mf
                          mfem::ParMesh& mesh, const mfem::FiniteElement& element) {
   auto* map = mesh.GetBdrFaceTransformations(boundary_face);
   if (!map) return;  // an inner surface: loads act on the outside only
-  Face face{&load, {}};
-  mfem::Vector shape(nodes_), normal(3);
+  Face face{&load, 0, {}};
+  mfem::Vector shape(nodes_), normal(3), X(3);
   mfem::DenseMatrix slope(nodes_, 3), gradient(nodes_, 3);
   for (int q = 0; q < rule.GetNPoints(); ++q) {
     map->SetAllIntPoints(&rule.IntPoint(q));
@@ -98,7 +101,11 @@ void FaceLoads::add_face(int boundary_face, const BoundaryConfig& load, const mf
     mfem::Mult(slope, map->Elem1->InverseJacobian(), gradient);
     mfem::CalcOrtho(map->Jacobian(), normal);  // outward of cell 1, as long as the area is large
     normal *= rule.IntPoint(q).weight;
-    Point point{{shape.begin(), shape.end()}, std::vector<double>(3 * nodes_), {normal(0), normal(1), normal(2)}};
+    map->Elem1->Transform(in_cell, X);
+    Point point{{shape.begin(), shape.end()},
+                std::vector<double>(3 * nodes_),
+                {normal(0), normal(1), normal(2)},
+                {X(0), X(1), X(2)}};
     for (int J = 0; J < 3; ++J)
       for (int a = 0; a < nodes_; ++a) point.G[J * nodes_ + a] = gradient(a, J);
     face.points.push_back(std::move(point));
@@ -106,9 +113,43 @@ void FaceLoads::add_face(int boundary_face, const BoundaryConfig& load, const mf
   faces_of_cell_[map->Elem1No].push_back(std::move(face));
 }
 
+/// Collective.
+void FaceLoads::set_areas(const BoundaryConfig& load) {
+  const auto for_each_face = [&](auto visit) {
+    for (auto& faces : faces_of_cell_)
+      for (Face& face : faces)
+        if (face.load == &load) visit(face);
+  };
+  double area = 0;
+  for_each_face([&](Face& face) {
+    for (const Point& point : face.points) area += norm(point.normal);
+  });
+  area = sum(area);
+  for_each_face([&](Face& face) { face.whole_area = area; });
+}
+
+SupportPoint FaceLoads::support_point(const Face& face, const Point& point) const {
+  const double area = norm(point.normal);
+  return {point.N.data(), nodes_, area, area / face.whole_area, point.X};
+}
+
+SupportState FaceLoads::support_state(const BoundaryConfig& boundary, double time,
+                                      const std::vector<double>& u_cells) const {
+  SupportState state;
+  state.gap = std::numeric_limits<double>::infinity();
+  for (std::size_t cell = 0; cell < faces_of_cell_.size(); ++cell)
+    for (const Face& face : faces_of_cell_[cell])
+      for (const Point& point : face.points)
+        if (face.load == &boundary)
+          add_state(boundary.support, time, support_point(face, point), &u_cells[3 * nodes_ * cell], state);
+  return state;
+}
+
 void FaceLoads::add(int cell, double time, const double* u, double* r, double* K) const {
   for (const Face& face : faces_of_cell_[cell]) {
     add_dead(face, time, r);
+    for (const Point& point : face.points)
+      if (face.load->support.given()) add_support(face.load->support, time, support_point(face, point), u, r, K);
     const double pressure = face.load->pressure(time);
     if (pressure == 0) continue;
     for (const Point& point : face.points) add_follower(point, pressure, u, r, K);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/config.hpp"
+#include "fe/supports.hpp"
 #include "mesh/mesh.hpp"
 
 namespace titin {
@@ -22,6 +23,7 @@ struct BoundaryConfig {
   std::array<double, 3> traction{};   // dead [Pa], force per reference area
   Table traction_scale{1};
   Table pressure;  // follower [Pa], pushes against the outward normal of the deformed surface
+  SupportConfig support;
   bool constrained() const { return clamp || prescribed[0] || prescribed[1] || prescribed[2]; }
   bool loaded() const;
   void bind(Section& s, const NamedMesh& mesh);
@@ -55,18 +57,24 @@ class FaceLoads {
   bool has_follower() const { return has_follower_; }
   /// Adds minus the load's nodal forces to r [3][nodes]; with K != nullptr also their derivative.
   void add(int cell, double time, const double* u, double* r, double* K) const;
+  /// What the supports of a boundary do to this rank's part of it; `u_cells` are the values [cell][3][nodes].
+  SupportState support_state(const BoundaryConfig& boundary, double time, const std::vector<double>& u_cells) const;
 
  private:
   struct Point {
     std::vector<double> N, G;      // shapes [nodes], reference gradients [J][nodes]
     std::array<double, 3> normal;  // outward, times reference area [m^2]
+    std::array<double, 3> X;       // [m]
   };
   struct Face {
     const BoundaryConfig* load;
+    double whole_area;  // of the boundary, all ranks [m^2]
     std::vector<Point> points;
   };
   void add_face(int boundary_face, const BoundaryConfig& load, const mfem::IntegrationRule& rule, mfem::ParMesh& mesh,
                 const mfem::FiniteElement& element);
+  void set_areas(const BoundaryConfig& load);
+  SupportPoint support_point(const Face& face, const Point& point) const;
   void add_dead(const Face& face, double time, double* r) const;
   void add_follower(const Point& point, double pressure, const double* u, double* r, double* K) const;
 

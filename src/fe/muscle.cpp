@@ -15,6 +15,7 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
       space_(mesh_.mesh.get(), &collection_, 3, mfem::Ordering::byVDIM),
       system_(config_, mesh_, space_),
       history_(system_),
+      watch_(system_),
       fields_(system_),
       u_(space_.GetTrueVSize()),
       v_(space_.GetTrueVSize()),
@@ -33,6 +34,10 @@ Newton& Muscle::newton() {
 void Muscle::follow(const StepState& step) {
   history_.update(u_, v_, step);
   quantities_ = history_.quantities();
+  if (config_.ellipticity) {
+    watch_.update(u_, step);
+    for (const Quantity& q : watch_.quantities()) quantities_.push_back(q);
+  }
   conservation_.update(quantities_);
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "fe/conservation.hpp"
+#include "fe/ellipticity_watch.hpp"
 #include "fe/muscle_fields.hpp"
 #include "fe/muscle_history.hpp"
 #include "fe/muscle_system.hpp"
@@ -26,7 +27,10 @@ class Muscle : public Model {
   std::vector<Quantity> quantities() override { return quantities_; }
   std::vector<Quantity> conservation() override { return conservation_.list(); }
   std::string shown_quantity() const override { return history_.shown(); }
-  void update_fields() override { fields_.update(u_, v_, system_.step().u_old); }
+  void update_fields() override {
+    fields_.update(u_, v_, system_.step().u_old);
+    if (config_.ellipticity) fields_.set_ellipticity(watch_.smallest());
+  }
   const std::vector<Field>& fields() const override { return fields_.fields(); }
   mfem::ParMesh& mesh() override { return *mesh_.mesh; }
   long unknowns() const override { return static_cast<long>(space_.GlobalTrueVSize()); }
@@ -47,6 +51,7 @@ class Muscle : public Model {
   MuscleSystem system_;
   std::unique_ptr<Newton> newton_;  // from the first step on
   MuscleHistory history_;
+  EllipticityWatch watch_;
   Conservation conservation_;
   std::vector<Quantity> quantities_;  // of the accepted state
   MuscleFields fields_;

@@ -30,6 +30,9 @@ void bind_formulation(Section s, MuscleConfig& c) {
            {{"stretch_difference", FibreRate::stretch_difference}, {"velocity_gradient", FibreRate::velocity_gradient}},
            {.doc = "rate of the fibre's stretch in a step: from its two ends (symmetric tangent), or from the velocity "
                    "gradient"});
+  s.read("ellipticity", c.ellipticity,
+         {.doc = "find the smallest Legendre-Hadamard value of each cell after every step, write it as a field and in "
+                 "history.csv, and warn when it becomes negative"});
   s.read("pennation_axis", c.pennation_axis, {.doc = "direction that pennation angles are measured from"});
   if (!(norm(c.pennation_axis) > 0))
     s.error("pennation_axis", "a direction of length zero", "give the line of action, e.g. [1, 0, 0]");

@@ -23,6 +23,7 @@ struct MuscleConfig {
   int quadrature = 0;  // Gauss points per direction; 0: order + 1
   FibreRate fibre_rate = FibreRate::stretch_difference;
   std::array<double, 3> pennation_axis{1, 0, 0};
+  bool ellipticity = false;
   std::array<double, 3> body_acceleration{};  // [m/s^2]
   Table body_scale{1};
   std::vector<BoundaryConfig> boundaries;

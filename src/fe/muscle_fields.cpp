@@ -43,6 +43,7 @@ MuscleFields::MuscleFields(MuscleSystem& system)
   activation_ = add("activation", "", scalars_);
   direction_ = add("fibre_direction", "", vectors_);
   stress_ = add("cauchy_stress", "Pa", tensors_);
+  if (system.config().ellipticity) ellipticity_ = add("legendre_hadamard", "Pa", constants_);
   auto* region = add("region", "", constants_);
   for (int cell = 0; cell < constants_.GetNE(); ++cell) (*region)(cell) = constants_.GetParMesh()->GetAttribute(cell);
 }
@@ -61,6 +62,10 @@ void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v, const mf
   system_.for_each_cell(u, u_old, [&](int cell, const Material& material, const ThreeField& kernel) {
     update_points(cell, material, kernel);
   });
+}
+
+void MuscleFields::set_ellipticity(const std::vector<double>& of_cells) {
+  std::copy(of_cells.begin(), of_cells.end(), ellipticity_->begin());
 }
 
 void MuscleFields::update_points(int cell, const Material& material, const ThreeField& kernel) {

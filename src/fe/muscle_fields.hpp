@@ -18,6 +18,7 @@ class MuscleFields {
 
   /// `u_old`, and the step that the system holds, give the rates. Collective.
   void update(const mfem::Vector& u, const mfem::Vector& v, const mfem::Vector& u_old);
+  void set_ellipticity(const std::vector<double>& of_cells);
   const std::vector<Field>& fields() const { return fields_; }
 
  private:
@@ -32,7 +33,7 @@ class MuscleFields {
   std::vector<std::unique_ptr<mfem::ParGridFunction>> storage_;
   std::vector<Field> fields_;
   mfem::ParGridFunction *displacement_, *velocity_, *pressure_, *dilatation_, *stretch_, *rate_, *activation_,
-      *direction_, *stress_;
+      *direction_, *stress_, *ellipticity_ = nullptr;
 };
 
 }  // namespace titin

@@ -178,6 +178,17 @@ Quantity MuscleHistory::reaction(int boundary, int component) const {
           sum(force)};
 }
 
+/// Returns the energy that the boundary's spring and wall hold.
+double MuscleHistory::add_support_quantities(const BoundaryConfig& boundary, std::vector<Quantity>& list) const {
+  const SupportState state = system_.loads().support_state(boundary, system_.step().time, system_.cell_values(u_));
+  for (int i = 0; i < 3; ++i)
+    list.push_back({fmt::format("support_{}_{}", boundary.name, component_name[i]), "N", sum(state.force[i])});
+  if (boundary.support.wall.given) list.push_back({"gap_" + boundary.name, "m", min(state.gap)});
+  const double energy = sum(state.energy);
+  list.push_back({"energy_support_" + boundary.name, "J", energy});
+  return energy;
+}
+
 std::vector<Quantity> MuscleHistory::quantities() const {
   std::vector<Quantity> list;
   const auto& boundaries = system_.config().boundaries;
@@ -201,7 +212,11 @@ std::vector<Quantity> MuscleHistory::quantities() const {
     done += dissipated;
     list.push_back({"dissipation_" + term.name, "J", dissipated});
   }
-  const double boundary = sum(work_boundary_), body = sum(work_body_);
+  double held = 0;
+  for (const BoundaryConfig& b : boundaries)
+    if (b.support.given()) held += add_support_quantities(b, list);
+  stored += held;
+  const double boundary = sum(work_boundary_) + held, body = sum(work_body_);  // supports are part of the system
   list.push_back({"work_boundary", "J", boundary});
   list.push_back({"work_body", "J", body});
   list.push_back(

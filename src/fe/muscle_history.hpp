@@ -48,6 +48,7 @@ class MuscleHistory {
   void add_boundary_work(const mfem::Vector& u, const mfem::Vector& u_old);
   void take_means();
   void take_markers();
+  double add_support_quantities(const BoundaryConfig& boundary, std::vector<Quantity>& list) const;
   Quantity reaction(int boundary, int component) const;
 
   MuscleSystem& system_;

@@ -72,6 +72,7 @@ class MuscleSystem : public NonlinearSystem {
   /// Time, step and history of a cell's points; deform() fills in the rest.
   PointInput point_input(int cell) const;
   History& history() { return history_; }
+  const FaceLoads& loads() const { return loads_; }
   const CellTables& tables() const { return tables_; }
   mfem::ParFiniteElementSpace& space() { return space_; }
   const MuscleConfig& config() const { return config_; }

@@ -104,15 +104,14 @@ std::optional<Vec3> SpatialField::fit(const Vec3& x, const std::vector<NearestPo
     for (int d3 = 0; d3 < 3; ++d3) centre[d3] += w * data_.places[point][d3], mean[d3] += w * value[d3];
   }
   for (int d = 0; d < 3; ++d) centre[d] /= sum, mean[d] /= sum;
-  Mat3 moment{}, spread{}, slope{};  // sum w r r, sum r r, sum w (value - mean) r
+  Mat3 moment{}, slope{};  // sum w r r, sum w (value - mean) r
   for (const auto& [w, place, value] : list) {
     const Vec3 r = minus(place, centre);
     add(moment, w, dyad(r, r));
-    if (w > 0) add(spread, 1.0, dyad(r, r));
     add(slope, w, dyad(minus(value, mean), r));
   }
-  if (!all && rank_of(eigenpairs(spread)) < rank_) return std::nullopt;
   const Eigenpairs e = eigenpairs(moment);
+  if (!all && !(rank_of(e) >= rank_)) return std::nullopt;
   const double largest = *std::max_element(e.values.begin(), e.values.end());
   Vec3 value = mean;
   for (int k = 0; k < 3; ++k) {

@@ -46,7 +46,8 @@ TEST(Field, OfPeakStressGivesItsIntegralAsReaction) {
 std::string two_bricks(const std::string& materials) {
   return "[mesh]\nfile = \"" + std::string(TITIN_TEST_DATA) +
          "/mesh/two_bricks.msh\"\nrefine = 1\n[muscle]\ninertia = \"quasi-static\"\n" + tight +
-         "[boundary.\"held end\"]\nclamp = true\n[boundary.pulled]\ndisplacement.x = \"1 mm\"\n[markers]\np = \"20, 5, "
+         "[boundary.\"held end\"]\nclamp = true\n[boundary.pulled]\ndisplacement.x = \"0.5 mm\"\n[markers]\np = \"20, "
+         "5, "
          "5 "
          "mm\"\n" +
          materials;
@@ -57,7 +58,7 @@ std::string active(const std::string& name, const std::string& more) {
          "]\ndensity = \"1060 kg/m^3\"\nvolumetric = { law = \"simo\", bulk_modulus = \"1 MPa\" }\n" + more +
          "[materials." + name +
          ".terms]\nbase = { law = \"neo_hookean\", mu = \"20 kPa\" }\nactive = { law = "
-         "\"hill_active\", activation = 1, peak_stress = \"100 kPa\", max_strain_rate = \"5 1/s\" }\n";
+         "\"hill_active\", activation = 1, peak_stress = \"10 kPa\", max_strain_rate = \"5 1/s\" }\n";
 }
 
 std::unique_ptr<Muscle> make(const std::string& text) {
@@ -85,7 +86,7 @@ TEST(Field, OfFibresIsWhatTwoMaterialsWouldBe) {
     model->accept();
   }
   const double force = quantity(*two, "reaction_pulled_x");
-  EXPECT_GT(std::abs(force), 1);
+  EXPECT_GT(std::abs(force), 0.1);
   EXPECT_NEAR(quantity(*field, "reaction_pulled_x"), force, newton_accuracy * std::abs(force));
   EXPECT_NEAR(quantity(*field, "marker_p_uz"), quantity(*two, "marker_p_uz"), newton_accuracy * 1e-3);
   EXPECT_GT(std::abs(quantity(*two, "marker_p_uz")), 1e-5) << "or the turned fibres do nothing";
@@ -126,7 +127,7 @@ TEST(Curve, OfAModulusBringsTheEnergyItNeeds) {
   const double brought = quantity(*fine, "work_parameters_base");
   EXPECT_GT(brought, 0.2 * quantity(*fine, "energy_base"));
   const double error = quantity(*fine, "energy_balance_error");
-    EXPECT_NEAR(quantity(*coarse, "energy_balance_error") / error, 2, 0.15) << "first order";
+  EXPECT_NEAR(quantity(*coarse, "energy_balance_error") / error, 2, 0.15) << "first order";
 }
 
 }  // namespace
