@@ -16,6 +16,7 @@ namespace {
 constexpr int fewest = 12;         // places of a fit, if there are as many: four numbers are looked for
 constexpr double flat = 1e-6;      // of the largest moment: places that extend less than 1e-3 of their width are flat
 constexpr double same = 1e-9;      // of the distance of the farthest place: x is a place
+constexpr double rounded = 1e-20;  // of weight x radius^2: a moment that is nothing but the rounding of one place
 constexpr double wide_reach = 3;   // spacings
 constexpr double cancelled = 0.1;  // length of an averaged direction: unit vectors that are up to 84 degrees apart
 
@@ -111,7 +112,9 @@ std::optional<Vec3> SpatialField::fit(const Vec3& x, const std::vector<NearestPo
     add(slope, w, dyad(minus(value, mean), r));
   }
   const Eigenpairs e = eigenpairs(moment);
-  if (!all && !(rank_of(e) >= rank_)) return std::nullopt;
+  const bool extends = *std::max_element(e.values.begin(), e.values.end()) > rounded * sum * R * R;
+  if (!extends && all) return mean;
+  if (!all && (!extends || rank_of(e) < rank_)) return std::nullopt;
   const double largest = *std::max_element(e.values.begin(), e.values.end());
   Vec3 value = mean;
   for (int k = 0; k < 3; ++k) {

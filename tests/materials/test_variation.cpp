@@ -144,7 +144,9 @@ TEST(EveryLaw, TakesCurvesForItsNumbers) {
       } catch (const InputError& error) {
         const std::string what = error.what();
         const bool refused = what.find("is no number") != std::string::npos && law.name == "hencky";
-        EXPECT_TRUE(refused || what.find("lies below") != std::string::npos || what.find("out of range") != std::string::npos) << what;  // or depends on another number
+        EXPECT_TRUE(refused || what.find("lies below") != std::string::npos ||
+                    what.find("out of range") != std::string::npos)
+            << what;  // or depends on another number
         continue;
       }
       Point at{.F = general_F, .F_old = general_F_old, .rate = FibreRate::stretch_difference, .time = 1};
