@@ -43,7 +43,7 @@ Scene read(const RunOptions& options) {
 class Run {
  public:
   Run(Scene& scene, const RunOptions& options)
-      : scene_(scene), folder_(folder_of(options), options.overwrite), clock_(scene.clock) {
+      : scene_(scene), folder_(folder_of(options), options.overwrite), clock_(scene.clock, scene.model->largest_dt()) {
     summary_.scene = options.scene_file;
     summary_.title = scene.title;
     summary_.model = scene.model->name();
@@ -147,6 +147,7 @@ class Run {
     add_costs(summary_);
     folder_.write("run.json", summary_.json());
     log_timers(summary_);
+    if (std::isfinite(scene_.model->largest_dt())) log_explicit_speed(summary_);
     const std::string done = fmt::format("{} in {}; output up to {:.6g} s is in {}", count(clock_.steps(), "step"),
                                          duration(summary_.stepping_seconds), clock_.time(), folder_.path());
     if (outcome == Outcome::finished)

@@ -52,4 +52,10 @@ void log_timers(const RunSummary& summary) {
     logging::detail("{:<24}  {:>10.3f}  {:>10.3f}  {:>9}", name, t.wall, t.cpu, t.calls);
 }
 
+void log_explicit_speed(const RunSummary& summary) {
+  const auto step = summary.timers.find("step");
+  if (step == summary.timers.end() || !(step->second.cpu > 0)) return;
+  logging::info("{:.3g} cell-steps per CPU-second", 1.0 * summary.cells * summary.steps / step->second.cpu);
+}
+
 }  // namespace titin

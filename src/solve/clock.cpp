@@ -23,7 +23,8 @@ void ClockConfig::bind(Section& s) {
          {.range = {.min = 0, .max = 60}, .doc = "how often in a row a step that fails is halved before the run ends"});
 }
 
-Clock::Clock(const ClockConfig& config) : config_(config), dt_(std::min(config.step, config.end)) {}
+Clock::Clock(const ClockConfig& config, double largest_dt)
+    : config_(config), dt_(std::min(config.step, config.end)), largest_dt_(largest_dt) {}
 
 bool Clock::done() const { return time_ >= config_.end; }
 

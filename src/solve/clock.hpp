@@ -17,7 +17,8 @@ struct ClockConfig {
 
 class Clock {
  public:
-  explicit Clock(const ClockConfig& config);
+  /// `largest_dt` [s]: what the formulation can take from the start (Model::largest_dt).
+  explicit Clock(const ClockConfig& config, double largest_dt = std::numeric_limits<double>::infinity());
 
   bool done() const;
   double time() const { return time_; }
@@ -35,7 +36,7 @@ class Clock {
 
   ClockConfig config_;
   double time_ = 0, dt_ = 0;
-  double largest_dt_ = std::numeric_limits<double>::infinity();
+  double largest_dt_;
   double origin_ = 0, stride_ = 0;  // since the step last changed, time is origin + strides * stride
   long strides_ = 0;
   int steps_ = 0, cuts_ = 0, cuts_in_a_row_ = 0, easy_steps_ = 0;

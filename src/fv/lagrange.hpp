@@ -1,0 +1,53 @@
+/// The Lagrangian formulation as a Model: explicit steps of the finite volume scheme, its history, fields and errors.
+#pragma once
+
+#include <memory>
+
+#include "fv/lagrange_config.hpp"
+#include "fv/lagrange_fields.hpp"
+#include "fv/lagrange_history.hpp"
+#include "solve/model.hpp"
+
+namespace titin {
+
+template <int D>
+class Lagrange final : public Model {
+ public:
+  /// The mesh must hold simplices of dimension D and the config must be free of errors. Collective.
+  Lagrange(NamedMesh mesh, LagrangeConfig config);
+
+  std::string name() const override { return "lagrange"; }
+  Step advance(double dt) override;
+  void accept() override;
+  void rewind() override {}  // the accepted state is never written to
+  double time() const override { return time_; }
+  double largest_dt() const override { return scheme_.largest_dt(); }
+
+  std::vector<Quantity> quantities() override { return history_.quantities(time_); }
+  std::vector<Quantity> conservation() override { return history_.conservation(); }
+  std::vector<Quantity> errors() override;
+  std::string shown_quantity() const override { return "energy_kinetic"; }
+  void update_fields() override { fields_.update(time_); }
+  const std::vector<Field>& fields() const override { return fields_.fields(); }
+  mfem::ParMesh& mesh() override { return *mesh_.mesh; }
+  long unknowns() const override;
+  const Scheme<D>& scheme() const { return scheme_; }
+
+ private:
+  std::vector<BoundaryCondition<D>> conditions() const;
+  std::vector<CellStart> start() const;
+
+  NamedMesh mesh_;
+  LagrangeConfig config_;
+  SimplexMesh<D> cells_;
+  NodeExchange exchange_;
+  Scheme<D> scheme_;
+  LagrangeHistory<D> history_;
+  LagrangeFields<D> fields_;
+  double time_ = 0, dt_ = 0;  // of the accepted state; of the step being tried
+};
+
+/// In the dimension of the mesh. Collective.
+std::unique_ptr<Model> make_lagrange(NamedMesh mesh, LagrangeConfig config);
+
+}  // namespace titin

@@ -1,0 +1,217 @@
+#include "fv/lagrange_config.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/words.hpp"
+
+namespace titin {
+namespace {
+
+constexpr const char* axes[] = {"x", "y", "z"};
+
+bool only_simplices(mfem::ParMesh& mesh) {
+  for (int e = 0; e < mesh.GetNE(); ++e) {
+    const auto geometry = mesh.GetElementGeometry(e);
+    if (geometry != mfem::Geometry::TRIANGLE && geometry != mfem::Geometry::TETRAHEDRON) return false;
+  }
+  return mesh.GetNodes() == nullptr;
+}
+
+}  // namespace
+
+void FlowBoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
+  s.read("on", on, {.doc = "boundaries of the mesh (default: the one with this name)"});
+  if (on.empty()) on = {name};
+  if (!s.describing() && mesh.mesh)
+    for (const auto& boundary : on)
+      if (!mesh.boundaries.count(boundary))
+        s.error(s.has("on") ? "on" : "", fmt::format("the mesh has no boundary {}", in_quotes(boundary)),
+                "it has: " + names_of(mesh.boundaries));
+  s.read("wall", wall, {.doc = "no velocity across it, slip along it: a rigid wall or a plane of symmetry"});
+  s.read("normal_velocity", normal_velocity,
+         {.unit = "m/s", .doc = "velocity along the outward normal, slip along it: a piston"});
+  has_normal_velocity = s.has("normal_velocity");
+  Section v = s.section("velocity", "prescribed components; a component that is not named is free");
+  for (int i = 0; i < 3; ++i) {
+    v.read(axes[i], velocity[i], {.unit = "m/s", .doc = "velocity, constant or in time"});
+    prescribed[i] = v.has(axes[i]);
+  }
+  s.read("traction", traction, {.unit = "Pa", .doc = "dead traction: force per undeformed area, fixed direction"});
+  s.read("traction_scale", traction_scale, {.doc = "factor of the traction, constant or in time"});
+  s.read("pressure", pressure,
+         {.unit = "Pa", .doc = "follower pressure on the deformed surface, positive when it pushes"});
+  has_pressure = s.has("pressure");
+  s.choose(
+      "exact", exact,
+      {{"none", ExactBoundary::none}, {"pressure", ExactBoundary::pressure}, {"velocity", ExactBoundary::velocity}},
+      {.doc = "takes over this of the exact solution"});
+  Section o = s.section("obstacle", "a rigid half space that this boundary may meet and leave");
+  o.read("point", obstacle_point, {.unit = "m", .doc = "a point of its surface"});
+  o.read("normal", obstacle_normal, {.doc = "out of it, towards the body"});
+  o.choose("contact", contact, {{"slip", Contact::slip}, {"stick", Contact::stick}},
+           {.doc = "what nodes do that touch it"});
+  has_obstacle = o.has("normal");
+  check(s);
+}
+
+void FlowBoundaryConfig::check(Section& s) const {
+  if (s.describing()) return;
+  if (wall && has_normal_velocity) s.error("normal_velocity", "a wall has none", "drop wall = true");
+  if (has_obstacle && !(norm(obstacle_normal) > 0))
+    s.section("obstacle").error("normal", "a direction of length zero", "give the direction out of it, e.g. [0, 0, 1]");
+}
+
+void InitialConfig::bind(Section& s) {
+  s.read("lower", lower, {.unit = "m", .doc = "lower corner of the box it holds in (default: everywhere)"});
+  s.read("upper", upper, {.unit = "m", .doc = "upper corner of the box"});
+  s.read("centre", centre, {.unit = "m", .doc = "of the ball it holds in"});
+  s.read("radius", radius, {.unit = "m", .range = positive, .doc = "of the ball"});
+  has_lower = s.has("lower"), has_upper = s.has("upper"), has_radius = s.has("radius");
+  s.read("density", density, {.unit = "kg/m^3", .range = positive, .doc = "of a fluid"});
+  s.read("pressure", pressure, {.unit = "Pa", .doc = "of a fluid"});
+  s.read("velocity", velocity, {.unit = "m/s", .doc = "of all motions this part"});
+  s.choose(
+      "motion", motion,
+      {{"uniform", Motion::uniform},
+       {"radial", Motion::radial},
+       {"twist", Motion::twist},
+       {"swing", Motion::swing},
+       {"bend", Motion::bend}},
+      {.doc =
+           "added to the velocity. radial: rate x / |x|; twist: rate sin(pi z / (2 length)) about z; swing: rate "
+           "(-sin cos, cos sin)(pi x / length, pi y / length); bend: rate times the first bending of a free bar along "
+           "x in [-length / 2, length / 2], along y"});
+  s.read("rate", rate, {.doc = "of the motion, in m/s (twist: 1/s)"});
+  s.read("length", length, {.unit = "m", .range = positive, .doc = "of the motion"});
+}
+
+bool InitialConfig::holds(const Vec3& x) const {
+  for (int i = 0; i < 3; ++i)
+    if ((has_lower && x[i] < lower[i]) || (has_upper && x[i] > upper[i])) return false;
+  return !has_radius || norm(Vec3{x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]}) < radius;
+}
+
+Vec3 InitialConfig::velocity_at(const Vec3& x) const {
+  using std::cos, std::sin, std::sinh, std::cosh;
+  constexpr double pi = std::numbers::pi;
+  Vec3 v = velocity;
+  if (motion == Motion::radial) {
+    const double r = norm(x);
+    for (int i = 0; i < 3 && r > 0; ++i) v[i] += rate * x[i] / r;
+  } else if (motion == Motion::twist) {
+    const double spin = rate * sin(0.5 * pi * x[2] / length);
+    v[0] -= spin * x[1];
+    v[1] += spin * x[0];
+  } else if (motion == Motion::swing) {
+    const double a = pi * x[0] / length, b = pi * x[1] / length;
+    v[0] -= rate * sin(a) * cos(b);
+    v[1] += rate * cos(a) * sin(b);
+  } else if (motion == Motion::bend) {
+    // cosh(k) cos(k) = 1: the first mode of a bar with free ends (Timoshenko 1937, Vibration Problems, art. 37).
+    constexpr double k = 4.730040744862704;
+    const double s = k * (x[0] / length + 0.5), ratio = (cosh(k) - cos(k)) / (sinh(k) - sin(k));
+    v[1] += rate * (cosh(s) + cos(s) - ratio * (sinh(s) + sin(s)));
+  }
+  return v;
+}
+
+void LagrangeConfig::bind(Section& root, const NamedMesh& mesh) {
+  Section scheme = root.section("fv", "the explicit Lagrangian finite volume scheme");
+  fv.bind(scheme);
+  if (mesh.mesh && !only_simplices(*mesh.mesh)) {
+    Section(root.section("mesh"))
+        .error("", "has cells that the Lagrangian formulation does not know",
+               "take triangles or tetrahedra with straight edges");
+  }
+  bind_materials(root, mesh);
+  root.each("boundary", "what happens at a boundary of the mesh; one that is not named is free",
+            [&](const std::string& name, Section s) {
+              FlowBoundaryConfig boundary;
+              boundary.name = name;
+              boundary.bind(s, mesh);
+              boundaries.push_back(boundary);
+            });
+  exact = ExactFlow::read(root.section("exact", "a solution to start from and to compare with"),
+                          mesh.mesh ? mesh.mesh->Dimension() : 3);
+  for (const auto& boundary : boundaries)
+    if (boundary.exact != ExactBoundary::none && !exact)
+      root.section("boundary")
+          .section(boundary.name)
+          .error("exact", "there is no exact solution", "name one in exact.solution");
+  root.each("initial", "how cells start", [&](const std::string& name, Section s) {
+    InitialConfig start;
+    start.name = name;
+    start.bind(s);
+    initial.push_back(start);
+  });
+  Section points = root.section("markers", "points whose displacement is followed: NAME = \"x, y, z mm\", undeformed");
+  for (const std::string& name : points.names()) {
+    FlowMarker marker{name, {}};
+    points.read(name, marker.position, {.unit = "m", .doc = "position at the start; the nearest node is taken"});
+    markers.push_back(marker);
+  }
+  if (!root.describing() && mesh.mesh) check_start(root, mesh);
+}
+
+void LagrangeConfig::read_material(const std::string& name, Section s) {
+  if (s.describing() || s.has("fluid")) {
+    const auto fluid = Fluid::read(s.section("fluid", "p(rho, e) of a fluid, instead of a solid's terms"));
+    if (fluid) closures[name] = make_closure(fluid);
+  }
+  if (s.describing() || s.has("fluid")) return;  // keys of solids are described by the muscle formulation
+  const auto solid = Material::read(s);
+  if (!solid) return;
+  if (solid->history_size() > 0)
+    s.error("", "remembers its past, which the Lagrangian formulation does not carry yet",
+            "take a law without viscosity and damage");
+  densities[name] = solid->density();
+  closures[name] = make_closure(solid);
+}
+
+void LagrangeConfig::bind_materials(Section& root, const NamedMesh& mesh) {
+  root.each("materials", "one material, of one or more regions", [&](const std::string& name, Section s) {
+    std::vector<std::string> regions;
+    s.read("regions", regions, {.doc = "regions of the mesh that are made of it (default: all)"});
+    read_material(name, s);
+    if (!mesh.mesh) return;
+    if (regions.empty())
+      for (const auto& [region, attribute] : mesh.regions) regions.push_back(region);
+    for (const auto& region : regions) {
+      const auto found = mesh.regions.find(region);
+      if (found == mesh.regions.end())
+        s.error("regions", fmt::format("the mesh has no region {}", in_quotes(region)),
+                "it has: " + names_of(mesh.regions));
+      else if (const auto [made, is_new] = material_of_region.emplace(found->second, name); !is_new)
+        s.error(s.has("regions") ? "regions" : "",
+                fmt::format("region {} is made of {} already", in_quotes(region), in_quotes(made->second)),
+                "give each material its own regions");
+    }
+  });
+  if (root.describing() || !mesh.mesh) return;
+  for (const auto& [region, attribute] : mesh.regions)
+    if (!material_of_region.count(attribute))
+      root.error("materials", fmt::format("region {} has no material", in_quotes(region)),
+                 "name it in the regions of one");
+}
+
+/// Fluids have no density of their own.
+void LagrangeConfig::check_start(Section& root, const NamedMesh& mesh) const {
+  if (exact) return;
+  for (const auto& [attribute, name] : material_of_region) {
+    if (densities.count(name) || !closures.count(name)) continue;
+    bool everywhere = false;
+    for (const auto& start : initial)
+      everywhere = everywhere || (start.density > 0 && !start.has_lower && !start.has_upper && !start.has_radius);
+    if (!everywhere) {
+      root.error("initial", fmt::format("nothing says how dense the fluid {} is everywhere", in_quotes(name)),
+                 "begin with a table [initial.NAME] with density and pressure and without a box or ball");
+      return;
+    }
+  }
+  (void)mesh;
+}
+
+}  // namespace titin

@@ -1,0 +1,80 @@
+/// What a scene says of the Lagrangian formulation.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fv/boundary.hpp"
+#include "fv/closure.hpp"
+#include "fv/exact_flow.hpp"
+#include "fv/fv_config.hpp"
+#include "mesh/mesh.hpp"
+
+namespace titin {
+
+/// The boundary of the exact solution that a boundary of the mesh takes over.
+enum class ExactBoundary { none, pressure, velocity };
+
+struct FlowBoundaryConfig {
+  std::string name;
+  std::vector<std::string> on;  // boundaries of the mesh
+  bool wall = false;
+  std::array<bool, 3> prescribed{};
+  std::array<Table, 3> velocity;  // of components [m/s]
+  bool has_normal_velocity = false;
+  Table normal_velocity;  // outwards [m/s]
+  Table pressure;         // follower [Pa]
+  bool has_pressure = false;
+  std::array<double, 3> traction{};  // dead [Pa]
+  Table traction_scale{1};
+  ExactBoundary exact = ExactBoundary::none;
+  bool has_obstacle = false;
+  std::array<double, 3> obstacle_point{}, obstacle_normal{};
+  Contact contact = Contact::slip;
+  void bind(Section& s, const NamedMesh& mesh);
+
+ private:
+  void check(Section& s) const;
+};
+
+/// A start: everywhere, in a box or in a ball; a later one overrides those before it.
+struct InitialConfig {
+  enum class Motion { uniform, radial, twist, swing, bend };
+  std::string name;
+  bool has_lower = false, has_upper = false, has_radius = false;
+  std::array<double, 3> lower{}, upper{}, centre{};
+  double radius = 0;                 // [m]
+  double density = 0, pressure = 0;  // of fluids
+  std::array<double, 3> velocity{};  // [m/s]
+  Motion motion = Motion::uniform;
+  double rate = 0, length = 1;  // of the named motions: [m/s] or [1/s], [m]
+  void bind(Section& s);
+  bool holds(const Vec3& x) const;
+  Vec3 velocity_at(const Vec3& x) const;
+};
+
+struct FlowMarker {
+  std::string name;
+  std::array<double, 3> position{};  // [m] at the start
+};
+
+struct LagrangeConfig {
+  FvConfig fv;
+  std::map<std::string, std::unique_ptr<Closure>> closures;  // by material
+  std::map<std::string, double> densities;                   // of solids [kg/m^3]
+  std::map<int, std::string> material_of_region;             // by mesh attribute
+  std::vector<FlowBoundaryConfig> boundaries;
+  std::vector<InitialConfig> initial;
+  std::vector<FlowMarker> markers;
+  std::shared_ptr<const ExactFlow> exact;
+  void bind(Section& root, const NamedMesh& mesh);
+
+ private:
+  void bind_materials(Section& root, const NamedMesh& mesh);
+  void read_material(const std::string& name, Section s);
+  void check_start(Section& root, const NamedMesh& mesh) const;
+};
+
+}  // namespace titin

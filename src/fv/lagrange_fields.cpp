@@ -1,0 +1,68 @@
+#include "fv/lagrange_fields.hpp"
+
+namespace titin {
+
+template <int D>
+LagrangeFields<D>::LagrangeFields(mfem::ParMesh& mesh, const Scheme<D>& scheme)
+    : mesh_(mesh),
+      scheme_(scheme),
+      constant_(0, D),
+      scalars_(&mesh, &constant_),
+      vectors_(&mesh, &constant_, D, mfem::Ordering::byVDIM),
+      tensors_(&mesh, &constant_, 6, mfem::Ordering::byVDIM) {
+  density_ = add("density", "kg/m^3", scalars_);
+  pressure_ = add("pressure", "Pa", scalars_);
+  energy_ = add("internal_energy", "J/kg", scalars_);
+  ratio_ = add("volume_ratio", "", scalars_);
+  order_ = add("order", "", scalars_);
+  velocity_ = add("velocity", "m/s", vectors_);
+  stress_ = add("cauchy_stress", "Pa", tensors_);
+}
+
+template <int D>
+mfem::ParGridFunction* LagrangeFields<D>::add(const std::string& name, const std::string& unit,
+                                              mfem::ParFiniteElementSpace& space) {
+  storage_.push_back(std::make_unique<mfem::ParGridFunction>(&space));
+  *storage_.back() = 0.0;
+  fields_.push_back({name, unit, storage_.back().get()});
+  return storage_.back().get();
+}
+
+template <int D>
+void LagrangeFields<D>::update(double time) {
+  const SimplexMesh<D>& cells = scheme_.mesh();
+  for (int p = 0; p < cells.nodes(); ++p)
+    for (int i = 0; i < D; ++i) mesh_.GetVertex(cells.vertex_of[p])[i] = scheme_.state().x[p][i];
+  scheme_.for_blocks(scheme_.all_cells(),
+                     [&](std::span<const int> run, const Closure& closure) { write(run, closure, time); });
+}
+
+/// Stress in VTK's order xx, yy, zz, xy, yz, xz, which is ours.
+template <int D>
+void LagrangeFields<D>::write(std::span<const int> cells, const Closure& closure, double time) {
+  std::array<Mat3, cells_per_block> F;
+  std::array<double, cells_per_block> density, energy;
+  std::array<Sym3, cells_per_block> T;
+  const FlowState<D>& state = scheme_.state();
+  for (std::size_t b = 0; b < cells.size(); ++b) {
+    F[b] = scheme_.deformation(cells[b], state);
+    density[b] = state.cell[cells[b]].density;
+    energy[b] = scheme_.internal_energy(cells[b], state);
+  }
+  closure.stress({static_cast<int>(cells.size()), F.data(), density.data(), energy.data(), nullptr, time}, T.data());
+  for (std::size_t b = 0; b < cells.size(); ++b) {
+    const int e = scheme_.mesh().element_of[cells[b]];
+    (*density_)(e) = density[b];
+    (*energy_)(e) = energy[b];
+    (*pressure_)(e) = -(T[b][0] + T[b][1] + T[b][2]) / 3;
+    (*ratio_)(e) = determinant(F[b]);
+    (*order_)(e) = static_cast<int>(scheme_.order(cells[b]));
+    for (int i = 0; i < D; ++i) (*velocity_)(D * e + i) = state.cell[cells[b]].q[i];
+    for (int k = 0; k < 6; ++k) (*stress_)(6 * e + k) = T[b][k];
+  }
+}
+
+template class LagrangeFields<2>;
+template class LagrangeFields<3>;
+
+}  // namespace titin
