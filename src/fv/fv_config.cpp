@@ -24,8 +24,10 @@ void FvConfig::bind(Section& s) {
       {.range = {.min = 0, .max = 1, .open_min = true}, .doc = "part of the acoustic step that the first one takes"});
   s.read("impedance", impedance,
          {.range = {.min = 0.5, .max = 4}, .doc = "factor of density times wave speed in the nodal solver"});
-  s.read("density_tolerance", density_tolerance,
-         {.range = non_negative, .doc = "how far a density may leave the range of its neighbours, relative to itself"});
+  s.read(
+      "principle_tolerance", principle_tolerance,
+      {.range = non_negative,
+       .doc = "how far density and mean stress may leave the range of their neighbours, relative to rho and rho c^2"});
   s.read("range_tolerance", range_tolerance,
          {.range = non_negative, .doc = "the same, relative to that range; the larger of both holds"});
 }

@@ -23,13 +23,13 @@ double kept(double change, double up, double down, double negligible) {
 
 template <int D>
 Reconstruction<D>::Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exchange)
-    : mesh_(mesh), exchange_(exchange), moments_(mesh.nodes()), extremes_(mesh.nodes()), density_(mesh.nodes()) {}
+    : mesh_(mesh), exchange_(exchange), moments_(mesh.nodes()), extremes_(mesh.nodes()), judged_(mesh.nodes()) {}
 
 template <int D>
 void Reconstruction<D>::gather(const FlowState<D>& state) {
   for (int p = 0; p < mesh_.nodes(); ++p) {
     Moments m;
-    DensityExtremes range{nothing, nothing};
+    JudgedExtremes range{{nothing, nothing}, {nothing, nothing}};
     for (int k = mesh_.first_corner[p]; k < mesh_.first_corner[p + 1]; ++k) {
       const CellRecord<D>& c = state.cell[mesh_.corners[k] / (D + 1)];
       const Vector<D> r = difference(c.centre, state.x[p]);
@@ -39,14 +39,17 @@ void Reconstruction<D>::gather(const FlowState<D>& state) {
       add_square<D>(m.wrr, w, r);
       accumulate(m.wq, w, c.q);
       for (int i = 0; i < D; ++i) accumulate(m.wrq[i], w * r[i], c.q);
-      range.high = std::max(range.high, c.density);
-      range.minus_low = std::max(range.minus_low, -c.density);
+      const double judged[] = {c.density, mean_stress<D>(c.q)};
+      for (int k = 0; k < 2; ++k) {
+        range.high[k] = std::max(range.high[k], judged[k]);
+        range.minus_low[k] = std::max(range.minus_low[k], -judged[k]);
+      }
     }
     moments_[p] = m;
-    density_[p] = range;
+    judged_[p] = range;
   }
   exchange_.sum(&moments_[0].w, sizeof(Moments) / sizeof(double));
-  exchange_.max(&density_[0].high, 2);
+  exchange_.max(&judged_[0].high[0], 4);
 }
 
 template <int D>
@@ -118,12 +121,14 @@ void Reconstruction<D>::limit(int cell, const FlowState<D>& state, Slopes<D>& g)
 }
 
 template <int D>
-typename Reconstruction<D>::Range Reconstruction<D>::densities(int cell) const {
-  Range range{std::numeric_limits<double>::infinity(), nothing};
-  for (int p : mesh_.nodes_of[cell]) {
-    range.high = std::max(range.high, density_[p].high);
-    range.low = std::min(range.low, -density_[p].minus_low);
-  }
+std::array<typename Reconstruction<D>::Range, 2> Reconstruction<D>::ranges(int cell) const {
+  std::array<Range, 2> range;
+  range.fill({std::numeric_limits<double>::infinity(), nothing});
+  for (int p : mesh_.nodes_of[cell])
+    for (int k = 0; k < 2; ++k) {
+      range[k].high = std::max(range[k].high, judged_[p].high[k]);
+      range[k].low = std::min(range[k].low, -judged_[p].minus_low[k]);
+    }
   return range;
 }
 

@@ -28,7 +28,7 @@ class Reconstruction {
  public:
   Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exchange);
 
-  /// Takes in a state: moments and the range of the density about every node. Collective.
+  /// Takes in a state: moments, and the ranges that steps are judged by, about every node. Collective.
   void gather(const FlowState<D>& state);
   /// The range of all fields about every node, for the limiter. Collective.
   void gather_ranges(const FlowState<D>& state);
@@ -40,8 +40,8 @@ class Reconstruction {
   struct Range {
     double low, high;
   };
-  /// Of the density over the cells that share a node with this one, itself included.
-  Range densities(int cell) const;
+  /// Over the cells that share a node with this one, itself included: of the density, of the mean stress.
+  std::array<Range, 2> ranges(int cell) const;
 
  private:
   static constexpr int fields = field_count<D>;
@@ -55,15 +55,15 @@ class Reconstruction {
   struct Extremes {  // of all fields; as maxima, so that one exchange does for both
     CellFields<D> high, minus_low;
   };
-  struct DensityExtremes {
-    double high, minus_low;
+  struct JudgedExtremes {  // of what steps are judged by: density [kg/m^3], mean stress [Pa]
+    std::array<double, 2> high, minus_low;
   };
 
   const SimplexMesh<D>& mesh_;
   NodeExchange& exchange_;
-  std::vector<Moments> moments_;          // [node]
-  std::vector<Extremes> extremes_;        // [node]
-  std::vector<DensityExtremes> density_;  // [node]
+  std::vector<Moments> moments_;        // [node]
+  std::vector<Extremes> extremes_;      // [node]
+  std::vector<JudgedExtremes> judged_;  // [node]
 };
 
 extern template class Reconstruction<2>;

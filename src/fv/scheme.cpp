@@ -67,7 +67,20 @@ Scheme<D>::Scheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, const FvCo
   boundary_.prepare(0, 0, now_.x);
   solve_all(0, CellOrder::constant);
   now_.v = next_.v;
-  largest_dt_ = config_.first_step * min(acoustic_dt());
+  largest_dt_ = config_.first_step * min(std::min(acoustic_dt(), config_.volume_change * filling_time()));
+}
+
+/// Shortest time in which a cell of this rank would change by its own volume, as its nodes move now.
+template <int D>
+double Scheme<D>::filling_time() const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < mesh_.cells(); ++c) {
+    const Corners<D> normals = corner_normals<D>(mesh_.corners_of(c, now_.x));
+    double rate = 0;
+    for (int p = 0; p <= D; ++p) rate += dot(normals[p], now_.v[mesh_.nodes_of[c][p]]);
+    shortest = std::min(shortest, now_.volume[c] / std::abs(rate));
+  }
+  return shortest;
 }
 
 template <int D>
@@ -239,11 +252,16 @@ bool Scheme<D>::has_meaning(int cell) const {
 template <int D>
 bool Scheme<D>::in_trouble(int cell) const {
   if (!has_meaning(cell)) return true;
-  const auto range = reconstruction_.densities(cell);
-  const double allowed =
-      std::max(config_.density_tolerance * now_.cell[cell].density, config_.range_tolerance * (range.high - range.low));
-  const double density = next_.cell[cell].density;
-  return density < range.low - allowed || density > range.high + allowed;
+  const auto ranges = reconstruction_.ranges(cell);
+  const CellRecord<D>& before = now_.cell[cell];
+  const double scale[] = {before.density, before.density * now_.speed[cell] * now_.speed[cell]};
+  const double candidate[] = {next_.cell[cell].density, mean_stress<D>(next_.cell[cell].q)};
+  for (int k = 0; k < 2; ++k) {
+    const double allowed =
+        std::max(config_.principle_tolerance * scale[k], config_.range_tolerance * (ranges[k].high - ranges[k].low));
+    if (candidate[k] < ranges[k].low - allowed || candidate[k] > ranges[k].high + allowed) return true;
+  }
+  return false;
 }
 
 template <int D>
@@ -293,10 +311,8 @@ std::string Scheme<D>::failure() const {
 template <int D>
 void Scheme<D>::accept(double dt) {
   std::swap(now_, next_);
-  double filling = std::numeric_limits<double>::infinity();
-  for (int c = 0; c < mesh_.cells(); ++c)
-    filling = std::min(filling, dt * now_.volume[c] / std::abs(now_.volume[c] - next_.volume[c]));
-  largest_dt_ = std::min((1 + config_.growth) * dt, min(std::min(acoustic_dt(), config_.volume_change * filling)));
+  largest_dt_ =
+      std::min((1 + config_.growth) * dt, min(std::min(acoustic_dt(), config_.volume_change * filling_time())));
 }
 
 /// Of this rank.

@@ -75,6 +75,7 @@ class Scheme {
   std::string judge(double t, double dt);
   std::string failure() const;
   double acoustic_dt() const;
+  double filling_time() const;
   void half_step(double t, double dt);
 
   const SimplexMesh<D>& mesh_;

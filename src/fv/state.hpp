@@ -27,6 +27,14 @@ Symmetric<D> stress_of(const CellFields<D>& q) {
   return T;
 }
 
+/// In the plane of the components there.
+template <int D>
+double mean_stress(const CellFields<D>& q) {
+  double trace = q[D] + q[D + 1];
+  if constexpr (D == 3) trace += q[D + 2];
+  return trace / D;
+}
+
 /// One cache line in two dimensions, two in three.
 template <int D>
 struct alignas(64) CellRecord {

@@ -131,7 +131,7 @@ TYPED_TEST(Invariants, ForcedDownEverywhereIsTheFirstOrderSchemeBitForBit) {
   const auto start = this->gas([](auto& x) { return 1 + 0.3 * x[0]; }, [](auto& x) { return 2 + x[1]; },
                                &Invariants<TypeParam>::swirl);
   FvConfig forced = scheme(2);
-  forced.density_tolerance = -1e300;  // no density is inside of any range
+  forced.principle_tolerance = -1e300;  // no density is inside of any range
   forced.range_tolerance = -1e300;
   Flow<D> low(unit_box<D>(4, 0.2), make_closure(perfect_gas(1.4)), scheme(1), {wall<D>(all_sides<D>())}, start);
   Flow<D> high(unit_box<D>(4, 0.2), make_closure(perfect_gas(1.4)), forced, {wall<D>(all_sides<D>())}, start);
