@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "base/parallel.hpp"
+#include "fv/exact_flow.hpp"
 #include "fv/scheme.hpp"
 
 namespace titin::test {
@@ -35,6 +36,33 @@ std::unique_ptr<mfem::ParMesh> unit_box(int n, double distortion = 0, double len
     const double a = 37 * x[0] + 11 * x[1] + (D == 3 ? 23 * x[2] : 0);
     for (int i = 0; i < D; ++i) x[i] += inside * std::sin(a + 2 * i);
   }
+  return std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, serial);
+}
+
+/// The unit square of nx by ny boxes, each cut along alternating diagonals, and mapped. Sides: 1 y-, 2 x+, 3 y+, 4 x-.
+inline std::unique_ptr<mfem::ParMesh> mapped_grid(int nx, int ny, const std::function<Vector<2>(double, double)>& map) {
+  mfem::Mesh serial(2, (nx + 1) * (ny + 1), 2 * nx * ny, 2 * (nx + ny));
+  const auto node = [&](int i, int j) { return j * (nx + 1) + i; };
+  for (int j = 0; j <= ny; ++j)
+    for (int i = 0; i <= nx; ++i) serial.AddVertex(map(double(i) / nx, double(j) / ny).data());
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
+      if ((i + j) % 2)
+        serial.AddTriangle(a, b, c), serial.AddTriangle(a, c, d);
+      else
+        serial.AddTriangle(a, b, d), serial.AddTriangle(b, c, d);
+    }
+  for (int i = 0; i < nx; ++i) {
+    serial.AddBdrSegment(node(i, 0), node(i + 1, 0), 1);
+    serial.AddBdrSegment(node(i, ny), node(i + 1, ny), 3);
+  }
+  for (int j = 0; j < ny; ++j) {
+    serial.AddBdrSegment(node(0, j), node(0, j + 1), 4);
+    serial.AddBdrSegment(node(nx, j), node(nx, j + 1), 2);
+  }
+  serial.FinalizeTopology();
+  serial.Finalize();
   return std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, serial);
 }
 
@@ -134,6 +162,39 @@ typename Boundary<D>::Force boundary_force(const Scheme<D>& scheme) {
   std::copy_n(x.begin(), D, all.force.begin());
   all.power = x[D];
   return all;
+}
+
+template <int D>
+Vec3 in_space(const Vector<D>& a) {
+  Vec3 b{};
+  std::copy(a.begin(), a.end(), b.begin());
+  return b;
+}
+
+/// Starts a gas from an exact flow.
+template <int D>
+typename Flow<D>::Start start_from(const ExactFlow& exact) {
+  return [&exact](const Vector<D>& x, const Closure& closure) {
+    const FlowPoint p = exact.at(in_space<D>(x), 0);
+    return CellStart{nullptr, p.density, closure.energy_at(p.density, p.pressure), p.velocity};
+  };
+}
+
+/// Integral over the body of the error of density and of pressure, all ranks.
+struct MeanErrors {
+  double density, pressure;
+};
+template <int D>
+MeanErrors mean_errors(const Flow<D>& flow, const ExactFlow& exact) {
+  std::vector<double> x(2);
+  const auto& state = flow.scheme->state();
+  for (int c = 0; c < flow.mesh.cells(); ++c) {
+    const FlowPoint p = exact.at(in_space<D>(state.cell[c].centre), flow.t);
+    x[0] += state.volume[c] * std::abs(state.cell[c].density - p.density);
+    x[1] += state.volume[c] * std::abs(-state.cell[c].q[D] - p.pressure);
+  }
+  sum(x);
+  return {x[0], x[1]};
 }
 
 inline const Table at_rest{0.0};

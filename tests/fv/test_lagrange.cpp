@@ -1,0 +1,128 @@
+// The formulation as a model: what a scene says of it, its quantities, what it keeps, its errors.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "flows_for_tests.hpp"
+#include "fv/lagrange.hpp"
+
+namespace titin {
+namespace {
+
+using namespace test;
+
+template <int D>
+std::unique_ptr<Model> make_model(const std::string& scene, int n) {
+  NamedMesh mesh;
+  mesh.mesh = unit_box<D>(n);
+  mesh.regions = {{"body", 1}};
+  if (D == 2)
+    mesh.boundaries = {{"y-", 1}, {"x+", 2}, {"y+", 3}, {"x-", 4}};
+  else
+    mesh.boundaries = {{"z-", 1}, {"y-", 2}, {"x+", 3}, {"y+", 4}, {"x-", 5}, {"z+", 6}};
+  Config text(scene, "test.toml");
+  Section root = text.root();
+  LagrangeConfig config;
+  config.bind(root, mesh);
+  text.finish();
+  return make_lagrange(std::move(mesh), std::move(config));
+}
+
+void march(Model& model, double end) {
+  while (model.time() < end * (1 - 1e-12)) {
+    const Step step = model.advance(std::min(model.largest_dt(), end - model.time()));
+    ASSERT_TRUE(step.ok()) << step.failure;
+    model.accept();
+  }
+}
+
+std::map<std::string, double> values(const std::vector<Quantity>& list) {
+  std::map<std::string, double> map;
+  for (const Quantity& q : list) map[q.name] = q.value;
+  return map;
+}
+
+constexpr const char* shock_tube = R"(
+exact.solution = "riemann"
+fv.limiter = "barth_jespersen"
+materials.gas.fluid = { law = "perfect_gas", gamma = 1.4 }
+boundary.sides = { on = ["x-", "x+", "y-", "y+"], wall = true }
+)";
+
+TEST(Lagrange, ShockTubeKeepsWhatItMustAndKnowsItsErrors) {
+  const auto model = make_model<2>(shock_tube, 20);
+  march(*model, 0.1);
+  const auto kept = values(model->conservation());
+  EXPECT_LT(kept.at("energy_error"), 1e-12);
+  EXPECT_LT(kept.at("momentum_error"), 1e-12);
+  EXPECT_EQ(kept.at("mass_error"), 0);
+  const auto errors = values(model->errors());
+  EXPECT_LT(errors.at("density_L1"), 3e-2);
+  EXPECT_GT(errors.at("density_L1"), 1e-4) << "a shock was captured, not none made";
+  const auto now = values(model->quantities());
+  EXPECT_NEAR(now.at("mass"), 0.5 * (1 + 0.125), 1e-13);
+  EXPECT_NEAR(now.at("volume"), 1, 1e-12);
+  EXPECT_EQ(now.at("energy_elastic"), 0);
+  EXPECT_NEAR(now.at("energy_total"), now.at("energy_kinetic") + now.at("energy_internal"), 1e-13);
+}
+
+constexpr const char* pulled_block = R"(
+[materials.rubber]
+density = "1100 kg/m^3"
+volumetric = { law = "quad_log", bulk_modulus = "56.7 MPa" }
+terms.base = { law = "neo_hookean", mu = "5.86 MPa" }
+[boundary."x-"]
+velocity = { x = "0 m/s", y = "0 m/s", z = "0 m/s" }
+[boundary."x+"]
+traction = ["1 MPa", "0 Pa", "0 Pa"]
+traction_scale = { time = "0, 1 ms", value = [0, 1] }
+[markers]
+end = "1, 0.5, 0.5 m"
+)";
+
+TEST(Lagrange, PulledBlockFeelsItsTractionAndMoves) {
+  const auto model = make_model<3>(pulled_block, 4);
+  march(*model, 2e-3);
+  const auto now = values(model->quantities());
+  EXPECT_NEAR(now.at("force_x+_x"), 1e6, 1e-3);
+  EXPECT_GT(now.at("work_boundary"), 0);
+  EXPECT_GT(now.at("energy_elastic"), 0);
+  EXPECT_GT(now.at("marker_end_ux"), 1e-4);
+  EXPECT_LT(values(model->conservation()).at("energy_error"), 1e-12);
+  model->update_fields();
+  const auto& fields = model->fields();
+  EXPECT_EQ(fields.size(), 7u);
+  for (const Field& field : fields)
+    for (int k = 0; k < field.values->Size(); ++k) EXPECT_TRUE(std::isfinite((*field.values)(k))) << field.name;
+}
+
+TEST(Lagrange, FibresStiffenAlongThemselves) {
+  const std::string with_fibres =
+      std::string(pulled_block).replace(std::string(pulled_block).find("[boundary"), 0, "fibre = [1, 0, 0]\n");
+  std::string fibrous = with_fibres;
+  fibrous.insert(fibrous.find("fibre = "), "terms.fibres = { law = \"linear_fibre\", stiffness = \"20 MPa\" }\n");
+  const auto plain = make_model<3>(pulled_block, 3), stiff = make_model<3>(fibrous, 3);
+  march(*plain, 1.5e-3);
+  march(*stiff, 1.5e-3);
+  EXPECT_LT(values(stiff->quantities()).at("marker_end_ux"), 0.9 * values(plain->quantities()).at("marker_end_ux"));
+}
+
+std::string errors_of(const std::string& scene) {
+  try {
+    make_model<2>(scene, 2);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Lagrange, BadInputIsReported) {
+  EXPECT_NE(errors_of("materials.gas.fluid = { law = \"perfect_gas\" }").find("nothing says how dense"),
+            std::string::npos);
+  EXPECT_NE(errors_of(std::string(shock_tube) + "boundary.top = { wall = true }").find("has no boundary"),
+            std::string::npos);
+  EXPECT_NE(errors_of("exact.solution = \"riemann\"").find("has no material"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace titin
