@@ -145,7 +145,8 @@ bool MuscleSystem::symmetric_materials() const {
 }
 
 bool MuscleSystem::has_cell_blocks() const {
-  const bool mine = space_.GetNE() > 0 && tables_.geometry() == mfem::Geometry::CUBE && tables_.modes(0) > 0;
+  const bool mine = space_.GetNE() > 0 && tables_.geometry() == mfem::Geometry::CUBE && tables_.modes(0) > 0 &&
+                    config_.integrator.scheme != Scheme::energy_momentum;
   return !any_of(!mine);
 }
 

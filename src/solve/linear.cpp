@@ -33,15 +33,18 @@ struct View {
 
 LinearMethod chosen(LinearMethod asked, Mat K, bool has_cells) {
   if (!has_cells && (asked == LinearMethod::block || asked == LinearMethod::condensed))
-    throw InputError({"solver.linear: only hexahedra with pressure and dilatation have this solver; take \"direct\""});
+    throw InputError(
+        {"solver.linear: this needs hexahedra with pressure and dilatation, and a scheme other than energy_momentum; "
+         "take \"direct\""});
   PetscInt size;
   check(MatGetSize(K, &size, nullptr));
   const bool small = size <= largest_direct || !has_cells;
   const LinearMethod method =
       asked != LinearMethod::automatic ? asked : (small ? LinearMethod::direct : LinearMethod::block);
   if (asked == LinearMethod::automatic)
-    logging::info("linear solver: {} for {} unknowns ({})", small ? "direct" : "block", size,
-                  has_cells ? fmt::format("block above {}", largest_direct) : "the block solver needs hexahedra");
+    logging::info(
+        "linear solver: {} for {} unknowns ({})", small ? "direct" : "block", size,
+        has_cells ? fmt::format("block above {}", largest_direct) : "no block solver for this element or scheme");
   return method;
 }
 
