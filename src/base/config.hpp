@@ -91,6 +91,8 @@ class Section {
   void read(std::string_view name, bool& value, Key key);
   void read(std::string_view name, std::string& value, Key key);
   void read(std::string_view name, std::vector<std::string>& value, Key key);  ///< a list, or one string
+  /// Text, a number, true or false: as text, for whom it is handed on to.
+  void read_plain(std::string_view name, std::string& value, Key key);
   /// A constant ("3 mm") or {time = "0, 0.1 s", value = "0, 3 mm"} or {file = "strain.csv"} (two columns: time in s,
   /// value in the key's SI unit, or headed by other units; of more columns the one that `column` names), the latter two
   /// with an optional `scale` quantity that multiplies pure-number values.

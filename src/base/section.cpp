@@ -90,6 +90,17 @@ void Section::read(std::string_view name, std::vector<std::string>& value, Key k
   asked.keep(asked.node || !value.empty() ? fmt::format("[{}]", fmt::join(written, ", ")) : "");
 }
 
+void Section::read_plain(std::string_view name, std::string& value, Key key) {
+  const AskedKey asked = ask(*scene_, path_, name, key, "text or number", value);
+  if (asked.node && asked.node->is_string())
+    value = asked.node->as_string()->get();
+  else if (asked.node && (asked.node->is_number() || asked.node->is_boolean()))
+    value = shown(*asked.node);
+  else if (asked.node)
+    asked.complain(fmt::format("{} is neither text nor a number", shown(*asked.node)), "put it in quotation marks");
+  asked.keep(asked.node || !value.empty() ? toml_string(value) : "");
+}
+
 void Section::choose_word(std::string_view name, int& index, const std::vector<std::string>& words, Key key) {
   const AskedKey asked = ask(*scene_, path_, name, key, "word", index < 0 ? "" : words[index], words);
   if (asked.node) {

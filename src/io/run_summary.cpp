@@ -47,6 +47,7 @@ std::string RunSummary::json() const {
       {"peak_rss_bytes", peak_rss_bytes},
       {"timers", timer_table},
       {"warnings", warnings},
+      {"unused_options", unused_options},
       {"errors", errors},
       {"conservation", conservation},
   };

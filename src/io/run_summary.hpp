@@ -36,6 +36,7 @@ struct RunSummary {
   };
   std::map<std::string, Timer> timers;
   int warnings = 0;
+  std::vector<std::string> unused_options;     ///< of PETSc that the scene gives and no solver asked for
   std::map<std::string, double> errors;        ///< norms by name, where a reference is known
   std::map<std::string, double> conservation;  ///< what should stay zero
 

@@ -144,6 +144,10 @@ class Run {
   }
 
   void conclude(Outcome outcome) {
+    summary_.unused_options = scene_.petsc->unused();
+    for (const std::string& option : summary_.unused_options)
+      logging::warning(
+          fmt::format("{}: no solver of this run asked for it; its name may lack the solver's prefix", option));
     summary_.status = outcome == Outcome::finished  ? "finished"
                       : outcome == Outcome::stopped ? "stopped"
                                                     : "not_converged";

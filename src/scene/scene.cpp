@@ -18,6 +18,7 @@ struct SceneConfig {
   OutputConfig output;
   Reference reference;
   MuscleConfig muscle;
+  PetscOptionsConfig petsc;
 
   NamedMesh bind(Section root) {
     root.read("title", title, {.doc = "one line that says what happens"});
@@ -30,6 +31,8 @@ struct SceneConfig {
     Section out = root.section("output", "what is written, and when");
     output.bind(out);
     muscle.bind(root, named);
+    Section options = root.section("petsc", "options of PETSc and hypre, for those who know them");
+    petsc.bind(options);
     Section other = root.section("reference", "a history to compare with");
     reference.bind(other);
     root.leave("test");
@@ -44,7 +47,9 @@ Scene Scene::read(const std::string& file, const std::vector<std::string>& overr
   SceneConfig config;
   NamedMesh mesh = config.bind(text.root());
   text.finish();
-  Scene scene{config.title, config.clock, config.output, nullptr, std::move(config.reference), text.resolved()};
+  Scene scene{config.title,   config.clock, config.output, nullptr, nullptr, std::move(config.reference),
+              text.resolved()};
+  scene.petsc = std::make_unique<PetscOptionsInForce>(std::move(config.petsc));
   scene.model = std::make_unique<Muscle>(std::move(mesh), std::move(config.muscle));
   scene.reference.match(scene.model->quantities(), text.root().section("reference"));
   text.finish();

@@ -10,6 +10,7 @@
 #include "scene/reference.hpp"
 #include "solve/clock.hpp"
 #include "solve/model.hpp"
+#include "solve/petsc_options.hpp"
 
 namespace titin {
 
@@ -18,6 +19,7 @@ struct Scene {
   std::string title;
   ClockConfig clock;
   OutputConfig output;
+  std::unique_ptr<PetscOptionsInForce> petsc;  ///< outlives the model, whose solvers read them when they are made
   std::unique_ptr<Model> model;
   Reference reference;   ///< what run.json's errors are against; may be none
   std::string resolved;  ///< the scene as it was understood: a scene file that runs the same

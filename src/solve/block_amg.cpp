@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "solve/petsc_options.hpp"
+
 namespace titin {
 
 void set_boomeramg(PC pc, const std::string& prefix) {
@@ -12,12 +14,8 @@ void set_boomeramg(PC pc, const std::string& prefix) {
                                     {"interp_type", "ext+i"},
                                     {"P_max", "4"},
                                     {"strong_threshold", "0.5"},
-                                    {"relax_type_all", "symmetric-SOR/Jacobi"}}) {
-    const std::string option = "-" + prefix + "pc_hypre_boomeramg_" + name;
-    PetscBool given;
-    check(PetscOptionsHasName(nullptr, nullptr, option.c_str(), &given));
-    if (!given) check(PetscOptionsSetValue(nullptr, option.c_str(), value));
-  }
+                                    {"relax_type_all", "symmetric-SOR/Jacobi"}})
+    set_default_option(prefix + "pc_hypre_boomeramg_" + name, value);
 }
 
 }  // namespace titin

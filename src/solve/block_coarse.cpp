@@ -4,6 +4,7 @@
 
 #include "base/timers.hpp"
 #include "solve/block_amg.hpp"
+#include "solve/petsc_options.hpp"
 
 namespace titin {
 
@@ -107,7 +108,7 @@ void CoarseLevel::create_solver() {
   } else {
     set_boomeramg(pc, "coarse_");
   }
-  check(KSPSetFromOptions(solver_));
+  check_options(KSPSetFromOptions(solver_));
 }
 
 void CoarseLevel::update() {

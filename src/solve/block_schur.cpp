@@ -7,6 +7,7 @@
 #include "base/timers.hpp"
 #include "solve/block_amg.hpp"
 #include "solve/block_small.hpp"
+#include "solve/petsc_options.hpp"
 
 namespace titin {
 
@@ -100,7 +101,7 @@ void SchurInverse::create_laplacian(const std::vector<double>& mass) {
   PC pc;
   check(KSPGetPC(solver_, &pc));
   set_boomeramg(pc, "inertia_");
-  check(KSPSetFromOptions(solver_));
+  check_options(KSPSetFromOptions(solver_));
   check(KSPSetUp(solver_));
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/timers.hpp"
 #include "solve/block_small.hpp"
+#include "solve/petsc_options.hpp"
 
 namespace titin {
 
@@ -65,7 +66,7 @@ BlockSolver::BlockSolver(const CellBlocks& blocks, Mat K) : blocks_(blocks), K_(
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, this));
   check(PCShellSetApply(pc, precondition));
-  check(KSPSetFromOptions(ksp_));
+  check_options(KSPSetFromOptions(ksp_));
 }
 
 BlockSolver::~BlockSolver() {

@@ -5,6 +5,7 @@
 
 #include "base/log.hpp"
 #include "base/timers.hpp"
+#include "solve/petsc_options.hpp"
 
 namespace titin {
 
@@ -12,8 +13,8 @@ namespace {
 
 constexpr int restart = 60;
 constexpr int max_iterations = 60;  // an old factorisation that needs more is worth nothing
-constexpr int mumps_extra_memory =
-    60;  // [%] of its own estimate, ICNTL(14): fill grows with pivoting on indefinite matrices
+/// [%] of MUMPS's own estimate, ICNTL(14): fill grows with pivoting on indefinite matrices.
+constexpr auto mumps_extra_memory = "60";
 /// Where factors cost more than the block solver although they are used again: 0.5 GB at 47 000 unknowns, and growing
 /// as n^1.2 in memory and n^1.7 in time (docs/verification/solvers.md).
 constexpr PetscInt largest_direct = 40000;
@@ -95,11 +96,8 @@ void LinearSolver::create_direct(bool symmetric) {
   check(KSPGetPC(ksp_, &pc));
   check(PCSetType(pc, symmetric ? PCCHOLESKY : PCLU));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(PCFactorSetUpMatSolverType(pc));
-  Mat factor;
-  check(PCFactorGetMatrix(pc, &factor));
-  check(MatMumpsSetIcntl(factor, 14, mumps_extra_memory));
-  check(KSPSetFromOptions(ksp_));
+  set_default_option("mat_mumps_icntl_14", mumps_extra_memory);
+  check_options(KSPSetFromOptions(ksp_));
 }
 
 /// SNES sees one application of a preconditioner, which is a whole solve.

@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "base/timers.hpp"
+#include "solve/petsc_options.hpp"
 
 namespace titin {
 
@@ -86,7 +87,8 @@ Newton::Newton(const NewtonConfig& config, NonlinearSystem& system, Mat K) : con
   check(SNESLineSearchSetType(line_search, SNESLINESEARCHSHELL));
   check(SNESLineSearchShellSetUserFunc(line_search, search, this));
   if (config.inexact) check(SNESKSPSetUseEW(snes_, PETSC_TRUE));
-  check(SNESSetFromOptions(snes_));
+  check_options(SNESSetFromOptions(snes_));
+  check(KSPGetTolerances(linear_->ksp(), &linear_tolerance_, nullptr, nullptr, nullptr));
 }
 
 Newton::~Newton() {
@@ -115,7 +117,7 @@ NewtonResult Newton::solve(mfem::Vector& u) {
     result_.krylov += linear_->take_iterations();
   } while (reason == SNES_DIVERGED_LINEAR_SOLVE && linear_->forget_reused());
   if (config_.inexact)  // it left its own
-    check(KSPSetTolerances(linear_->ksp(), config_.linear.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+    check(KSPSetTolerances(linear_->ksp(), linear_tolerance_, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   u = *ReadView(u_);
   if (reason <= 0) result_.failure = reason_in_words(reason);
   return result_;

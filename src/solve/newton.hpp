@@ -87,6 +87,7 @@ class Newton {
   std::unique_ptr<LinearSolver> linear_;
   SNES snes_ = nullptr;
   Vec u_ = nullptr, R_ = nullptr;
+  double linear_tolerance_ = 0;  // of solves that are not inexact
   NewtonResult result_;
   bool outside_domain_ = false;
   mfem::Vector start_;    // u at the beginning of the solve
