@@ -9,6 +9,7 @@
 #include "base/words.hpp"
 #include "fe/cell_element.hpp"
 #include "math/tensor.hpp"
+#include "mesh/named_parts.hpp"
 
 namespace titin {
 
@@ -19,13 +20,7 @@ bool BoundaryConfig::loaded() const {
 }
 
 void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
-  s.read("on", on, {.doc = "boundaries of the mesh (default: the one with this name)"});
-  if (on.empty()) on = {name};
-  if (!s.describing() && mesh.mesh)
-    for (const auto& boundary : on)
-      if (!mesh.boundaries.count(boundary))
-        s.error(s.has("on") ? "on" : "", fmt::format("the mesh has no boundary {}", in_quotes(boundary)),
-                "it has: " + names_of(mesh.boundaries));
+  on = read_boundaries(s, name, mesh);
   s.read("clamp", clamp, {.doc = "hold all components at zero displacement"});
   Section d = s.section("displacement", "prescribed components; a component that is not named is free");
   for (int i = 0; i < 3; ++i) {

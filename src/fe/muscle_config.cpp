@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "base/words.hpp"
+#include "mesh/named_parts.hpp"
 
 namespace titin {
 
@@ -76,10 +77,9 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
 }
 
 void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
-  bool regions_are_right = true;
+  RegionMaterials regions;
   root.each("materials", "one material, of one or more regions", [&](const std::string& name, Section s) {
-    std::vector<std::string> regions;
-    s.read("regions", regions, {.doc = "regions of the mesh that are made of it (default: all)"});
+    regions.read(s, name, mesh);
     materials[name] = Material::read(s);
     if (!materials[name]->fields().empty())
       s.error("", "fibres and numbers that vary in space are not evaluated by this formulation yet",
@@ -89,36 +89,9 @@ void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
           fmt::format("{}: without a volumetric law the elements' pressure stays 0: displacements alone carry "
                       "the volume, and a material that is hard to compress locks",
                       s.path()));
-    if (!s.describing() && mesh.mesh) regions_are_right &= take_regions(name, regions, s, mesh);
   });
-  if (root.describing() || !mesh.mesh || !regions_are_right) return;
-  if (materials.empty()) root.error("materials", "no material", "add a table [materials.NAME]");
-  for (const auto& [region, attribute] : mesh.regions)
-    if (!materials.empty() && !material_of_region.count(attribute))
-      root.error("materials", fmt::format("region {} has no material", in_quotes(region)),
-                 "name it in the regions of one");
-}
-
-/// Returns false when it reported one.
-bool MuscleConfig::take_regions(const std::string& material, std::vector<std::string> regions, Section& s,
-                                const NamedMesh& mesh) {
-  bool right = true;
-  const auto wrong = [&](const std::string& problem, const std::string& advice) {
-    s.error(s.has("regions") ? "regions" : "", problem, advice);
-    right = false;
-  };
-  if (regions.empty() && s.has("regions")) wrong("names no region", "the mesh has: " + names_of(mesh.regions));
-  if (regions.empty() && right)
-    for (const auto& [region, attribute] : mesh.regions) regions.push_back(region);
-  for (const auto& region : regions) {
-    const auto found = mesh.regions.find(region);
-    if (found == mesh.regions.end())
-      wrong(fmt::format("the mesh has no region {}", in_quotes(region)), "it has: " + names_of(mesh.regions));
-    else if (const auto [made, is_new] = material_of_region.emplace(found->second, material); !is_new)
-      wrong(fmt::format("region {} is made of {} already", in_quotes(region), in_quotes(made->second)),
-            "give each material its own regions");
-  }
-  return right;
+  regions.finish(root, mesh);
+  material_of_region = regions.by_attribute();
 }
 
 }  // namespace titin

@@ -46,7 +46,6 @@ struct MuscleConfig {
 
  private:
   void bind_materials(Section& root, const NamedMesh& mesh);
-  bool take_regions(const std::string& material, std::vector<std::string> regions, Section& s, const NamedMesh& mesh);
 };
 
 }  // namespace titin

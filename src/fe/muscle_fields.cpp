@@ -52,25 +52,17 @@ MuscleFields::MuscleFields(MuscleSystem& system)
     projection_[geometry] = projection_matrix(*scalars_.GetFE(cell), system.tables().rule(cell));
     evaluation_[geometry] = evaluation_matrix(*system.space().GetFE(cell), *nodal_.GetFE(cell));
   }
-  displacement_ = add("displacement", "m", nodal_);
-  velocity_ = add("velocity", "m/s", nodal_);
-  pressure_ = add("pressure", "Pa", scalars_);
-  dilatation_ = add("dilatation", "", scalars_);
-  stretch_ = add("fibre_stretch", "", scalars_);
-  rate_ = add("fibre_rate", "1/s", scalars_);
-  activation_ = add("activation", "", scalars_);
-  direction_ = add("fibre_direction", "", vectors_);
-  stress_ = add("cauchy_stress", "Pa", tensors_);
-  auto* region = add("region", "", constants_);
+  displacement_ = fields_.add("displacement", "m", nodal_);
+  velocity_ = fields_.add("velocity", "m/s", nodal_);
+  pressure_ = fields_.add("pressure", "Pa", scalars_);
+  dilatation_ = fields_.add("dilatation", "", scalars_);
+  stretch_ = fields_.add("fibre_stretch", "", scalars_);
+  rate_ = fields_.add("fibre_rate", "1/s", scalars_);
+  activation_ = fields_.add("activation", "", scalars_);
+  direction_ = fields_.add("fibre_direction", "", vectors_);
+  stress_ = fields_.add("cauchy_stress", "Pa", tensors_);
+  auto* region = fields_.add("region", "", constants_);
   for (int cell = 0; cell < constants_.GetNE(); ++cell) (*region)(cell) = constants_.GetParMesh()->GetAttribute(cell);
-}
-
-mfem::ParGridFunction* MuscleFields::add(const std::string& name, const std::string& unit,
-                                         mfem::ParFiniteElementSpace& space) {
-  storage_.push_back(std::make_unique<mfem::ParGridFunction>(&space));
-  *storage_.back() = 0.0;
-  fields_.push_back({name, unit, storage_.back().get()});
-  return storage_.back().get();
 }
 
 void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v) {

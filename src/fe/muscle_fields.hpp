@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fe/muscle_system.hpp"
-#include "solve/model.hpp"
+#include "solve/field_list.hpp"
 
 namespace titin {
 
@@ -19,10 +19,9 @@ class MuscleFields {
 
   /// The step that the system holds gives the rates. Collective.
   void update(const mfem::Vector& u, const mfem::Vector& v);
-  const std::vector<Field>& fields() const { return fields_; }
+  const std::vector<Field>& fields() const { return fields_.fields(); }
 
  private:
-  mfem::ParGridFunction* add(const std::string& name, const std::string& unit, mfem::ParFiniteElementSpace& space);
   mfem::Geometry::Type geometry_of(int cell) const;
   void draw(const mfem::Vector& true_values, mfem::ParGridFunction& field);
   void project(int cell, const std::vector<double>& at_points, int components, mfem::ParGridFunction& field);
@@ -35,8 +34,7 @@ class MuscleFields {
   // By geometry of the cell:
   std::array<mfem::DenseMatrix, mfem::Geometry::NumGeom> projection_;  // cell dofs x points: least squares in the cell
   std::array<mfem::DenseMatrix, mfem::Geometry::NumGeom> evaluation_;  // drawn nodes x nodes
-  std::vector<std::unique_ptr<mfem::ParGridFunction>> storage_;
-  std::vector<Field> fields_;
+  FieldList fields_;
   mfem::ParGridFunction *displacement_, *velocity_, *pressure_, *dilatation_, *stretch_, *rate_, *activation_,
       *direction_, *stress_;
 };

@@ -1,22 +1,13 @@
-/// What a scene follows in space: single points, and means over the cells in a box.
+/// Means over the cells in a box, which a scene follows beside single points (mesh/markers.hpp).
 #pragma once
 
-#include <mfem.hpp>
 #include <string>
 #include <vector>
 
 #include "base/config.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/markers.hpp"
 
 namespace titin {
-
-/// A point of the undeformed body whose displacement is followed.
-struct MarkerConfig {
-  std::string name;
-  std::array<double, 3> position{};  // [m] in the reference configuration
-  int cell = -1;                     // of this rank that holds it; -1: another rank has it
-  mfem::IntegrationPoint place;      // in that cell
-};
 
 /// Cells whose centre lies in this box of the reference configuration: their means are followed.
 struct AverageConfig {
@@ -25,8 +16,6 @@ struct AverageConfig {
   std::vector<int> cells;                  // of this rank
 };
 
-/// Reads [markers] and finds them. Collective.
-std::vector<MarkerConfig> read_markers(Section& root, const NamedMesh& mesh);
 /// Reads [averages] and finds their cells. Collective.
 std::vector<AverageConfig> read_averages(Section& root, const NamedMesh& mesh);
 

@@ -32,7 +32,7 @@ Lagrange<D>::Lagrange(NamedMesh mesh, LagrangeConfig config)
       cells_(*mesh_.mesh),
       exchange_(*mesh_.mesh, cells_),
       scheme_(cells_, exchange_, config_.fv, conditions(), start()),
-      history_(scheme_, exchange_, config_.markers),
+      history_(scheme_, config_.markers),
       fields_(*mesh_.mesh, scheme_) {}
 
 template <int D>

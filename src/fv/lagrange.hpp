@@ -31,7 +31,7 @@ class Lagrange final : public Model {
   const std::vector<Field>& fields() const override { return fields_.fields(); }
   mfem::ParMesh& mesh() override { return *mesh_.mesh; }
   long unknowns() const override;
-  const Scheme<D>& scheme() const { return scheme_; }
+  const FlowScheme<D>& scheme() const { return scheme_; }
 
  private:
   std::vector<BoundaryCondition<D>> conditions() const;
@@ -41,7 +41,7 @@ class Lagrange final : public Model {
   LagrangeConfig config_;
   SimplexMesh<D> cells_;
   NodeExchange exchange_;
-  Scheme<D> scheme_;
+  FlowScheme<D> scheme_;
   LagrangeHistory<D> history_;
   LagrangeFields<D> fields_;
   double time_ = 0, dt_ = 0;  // of the accepted state; of the step being tried

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/words.hpp"
+#include "mesh/named_parts.hpp"
 
 namespace titin {
 namespace {
@@ -23,13 +24,7 @@ bool only_simplices(mfem::ParMesh& mesh) {
 }  // namespace
 
 void FlowBoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
-  s.read("on", on, {.doc = "boundaries of the mesh (default: the one with this name)"});
-  if (on.empty()) on = {name};
-  if (!s.describing() && mesh.mesh)
-    for (const auto& boundary : on)
-      if (!mesh.boundaries.count(boundary))
-        s.error(s.has("on") ? "on" : "", fmt::format("the mesh has no boundary {}", in_quotes(boundary)),
-                "it has: " + names_of(mesh.boundaries));
+  on = read_boundaries(s, name, mesh);
   s.read("wall", wall, {.doc = "no velocity across it, slip along it: a rigid wall or a plane of symmetry"});
   s.read("normal_velocity", normal_velocity,
          {.unit = "m/s", .doc = "velocity along the outward normal, slip along it: a piston"});
@@ -124,7 +119,7 @@ void LagrangeConfig::bind(Section& root, const NamedMesh& mesh) {
   if (mesh.mesh && !only_simplices(*mesh.mesh)) {
     Section(root.section("mesh"))
         .error("", "has cells that the Lagrangian formulation does not know",
-               "take triangles or tetrahedra with straight edges");
+               "take triangles or tetrahedra with straight edges, in a box mesh.kind = \"simplices\"");
   }
   bind_materials(root, mesh);
   root.each("boundary", "what happens at a boundary of the mesh; one that is not named is free",
@@ -147,13 +142,8 @@ void LagrangeConfig::bind(Section& root, const NamedMesh& mesh) {
     start.bind(s);
     initial.push_back(start);
   });
-  Section points = root.section("markers", "points whose displacement is followed: NAME = \"x, y, z mm\", undeformed");
-  for (const std::string& name : points.names()) {
-    FlowMarker marker{name, {}};
-    points.read(name, marker.position, {.unit = "m", .doc = "position at the start; the nearest node is taken"});
-    markers.push_back(marker);
-  }
-  if (!root.describing() && mesh.mesh) check_start(root, mesh);
+  markers = read_markers(root, mesh);
+  if (!root.describing() && mesh.mesh) check_start(root);
 }
 
 void LagrangeConfig::read_material(const std::string& name, Section s) {
@@ -172,33 +162,17 @@ void LagrangeConfig::read_material(const std::string& name, Section s) {
 }
 
 void LagrangeConfig::bind_materials(Section& root, const NamedMesh& mesh) {
+  RegionMaterials regions;
   root.each("materials", "one material, of one or more regions", [&](const std::string& name, Section s) {
-    std::vector<std::string> regions;
-    s.read("regions", regions, {.doc = "regions of the mesh that are made of it (default: all)"});
+    regions.read(s, name, mesh);
     read_material(name, s);
-    if (!mesh.mesh) return;
-    if (regions.empty())
-      for (const auto& [region, attribute] : mesh.regions) regions.push_back(region);
-    for (const auto& region : regions) {
-      const auto found = mesh.regions.find(region);
-      if (found == mesh.regions.end())
-        s.error("regions", fmt::format("the mesh has no region {}", in_quotes(region)),
-                "it has: " + names_of(mesh.regions));
-      else if (const auto [made, is_new] = material_of_region.emplace(found->second, name); !is_new)
-        s.error(s.has("regions") ? "regions" : "",
-                fmt::format("region {} is made of {} already", in_quotes(region), in_quotes(made->second)),
-                "give each material its own regions");
-    }
   });
-  if (root.describing() || !mesh.mesh) return;
-  for (const auto& [region, attribute] : mesh.regions)
-    if (!material_of_region.count(attribute))
-      root.error("materials", fmt::format("region {} has no material", in_quotes(region)),
-                 "name it in the regions of one");
+  regions.finish(root, mesh);
+  material_of_region = regions.by_attribute();
 }
 
 /// Fluids have no density of their own.
-void LagrangeConfig::check_start(Section& root, const NamedMesh& mesh) const {
+void LagrangeConfig::check_start(Section& root) const {
   if (exact) return;
   for (const auto& [attribute, name] : material_of_region) {
     if (densities.count(name) || !closures.count(name)) continue;
@@ -211,7 +185,6 @@ void LagrangeConfig::check_start(Section& root, const NamedMesh& mesh) const {
       return;
     }
   }
-  (void)mesh;
 }
 
 }  // namespace titin

@@ -10,7 +10,7 @@
 #include "fv/closure.hpp"
 #include "fv/exact_flow.hpp"
 #include "fv/fv_config.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/markers.hpp"
 
 namespace titin {
 
@@ -55,11 +55,6 @@ struct InitialConfig {
   Vec3 velocity_at(const Vec3& x) const;
 };
 
-struct FlowMarker {
-  std::string name;
-  std::array<double, 3> position{};  // [m] at the start
-};
-
 struct LagrangeConfig {
   FvConfig fv;
   std::map<std::string, std::unique_ptr<Closure>> closures;  // by material
@@ -67,14 +62,14 @@ struct LagrangeConfig {
   std::map<int, std::string> material_of_region;             // by mesh attribute
   std::vector<FlowBoundaryConfig> boundaries;
   std::vector<InitialConfig> initial;
-  std::vector<FlowMarker> markers;
+  std::vector<MarkerConfig> markers;
   std::shared_ptr<const ExactFlow> exact;
   void bind(Section& root, const NamedMesh& mesh);
 
  private:
   void bind_materials(Section& root, const NamedMesh& mesh);
   void read_material(const std::string& name, Section s);
-  void check_start(Section& root, const NamedMesh& mesh) const;
+  void check_start(Section& root) const;
 };
 
 }  // namespace titin

@@ -3,29 +3,20 @@
 namespace titin {
 
 template <int D>
-LagrangeFields<D>::LagrangeFields(mfem::ParMesh& mesh, const Scheme<D>& scheme)
+LagrangeFields<D>::LagrangeFields(mfem::ParMesh& mesh, const FlowScheme<D>& scheme)
     : mesh_(mesh),
       scheme_(scheme),
       constant_(0, D),
       scalars_(&mesh, &constant_),
       vectors_(&mesh, &constant_, D, mfem::Ordering::byVDIM),
       tensors_(&mesh, &constant_, 6, mfem::Ordering::byVDIM) {
-  density_ = add("density", "kg/m^3", scalars_);
-  pressure_ = add("pressure", "Pa", scalars_);
-  energy_ = add("internal_energy", "J/kg", scalars_);
-  ratio_ = add("volume_ratio", "", scalars_);
-  order_ = add("order", "", scalars_);
-  velocity_ = add("velocity", "m/s", vectors_);
-  stress_ = add("cauchy_stress", "Pa", tensors_);
-}
-
-template <int D>
-mfem::ParGridFunction* LagrangeFields<D>::add(const std::string& name, const std::string& unit,
-                                              mfem::ParFiniteElementSpace& space) {
-  storage_.push_back(std::make_unique<mfem::ParGridFunction>(&space));
-  *storage_.back() = 0.0;
-  fields_.push_back({name, unit, storage_.back().get()});
-  return storage_.back().get();
+  density_ = fields_.add("density", "kg/m^3", scalars_);
+  pressure_ = fields_.add("pressure", "Pa", scalars_);
+  energy_ = fields_.add("internal_energy", "J/kg", scalars_);
+  ratio_ = fields_.add("volume_ratio", "", scalars_);
+  order_ = fields_.add("order", "", scalars_);
+  velocity_ = fields_.add("velocity", "m/s", vectors_);
+  stress_ = fields_.add("cauchy_stress", "Pa", tensors_);
 }
 
 template <int D>

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "fv/scheme.hpp"
-#include "solve/model.hpp"
+#include "solve/field_list.hpp"
 
 namespace titin {
 
@@ -12,20 +12,18 @@ template <int D>
 class LagrangeFields {
  public:
   /// Both stay the caller's. The mesh is moved by update.
-  LagrangeFields(mfem::ParMesh& mesh, const Scheme<D>& scheme);
+  LagrangeFields(mfem::ParMesh& mesh, const FlowScheme<D>& scheme);
   void update(double time);
-  const std::vector<Field>& fields() const { return fields_; }
+  const std::vector<Field>& fields() const { return fields_.fields(); }
 
  private:
-  mfem::ParGridFunction* add(const std::string& name, const std::string& unit, mfem::ParFiniteElementSpace& space);
   void write(std::span<const int> cells, const Closure& closure, double time);
 
   mfem::ParMesh& mesh_;
-  const Scheme<D>& scheme_;
+  const FlowScheme<D>& scheme_;
   mfem::L2_FECollection constant_;
   mfem::ParFiniteElementSpace scalars_, vectors_, tensors_;
-  std::vector<std::unique_ptr<mfem::ParGridFunction>> storage_;
-  std::vector<Field> fields_;
+  FieldList fields_;
   mfem::ParGridFunction *density_, *pressure_, *energy_, *ratio_, *order_, *velocity_, *stress_;
 };
 

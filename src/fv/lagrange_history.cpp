@@ -30,28 +30,30 @@ Vec3 spatial(const Vector<D>& a) {
 }  // namespace
 
 template <int D>
-LagrangeHistory<D>::LagrangeHistory(const Scheme<D>& scheme, const NodeExchange& exchange,
-                                    const std::vector<FlowMarker>& markers)
-    : scheme_(scheme), exchange_(exchange), forces_(scheme.boundary().conditions().size()) {
-  for (const FlowMarker& marker : markers) take_marker(marker);
+LagrangeHistory<D>::LagrangeHistory(const FlowScheme<D>& scheme, const std::vector<MarkerConfig>& markers)
+    : scheme_(scheme), forces_(scheme.boundary().conditions().size()) {
+  for (const MarkerConfig& marker : markers) take_marker(marker);
   start_ = now_ = kept();
   energy_scale_ = std::abs(start_.energy);
   momentum_scale_ = std::sqrt(2 * start_.mass * start_.kinetic);
 }
 
-/// The nearest node, on the lowest rank that has it.
+/// Barycentric coordinates in the cell that holds it at rest.
 template <int D>
-void LagrangeHistory<D>::take_marker(const FlowMarker& config) {
-  Marker marker{config.name, -1};
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int p = 0; p < scheme_.mesh().nodes(); ++p) {
-    const Vec3 away = difference(spatial<D>(scheme_.mesh().x[p]), config.position);
-    if (dot(away, away) < nearest) nearest = dot(away, away), marker.node = p;
+void LagrangeHistory<D>::take_marker(const MarkerConfig& config) {
+  Marker& marker = markers_.emplace_back();
+  marker.name = config.name;
+  if (config.cell < 0) return;
+  const SimplexMesh<D>& mesh = scheme_.mesh();
+  marker.cell = static_cast<int>(std::find(mesh.element_of.begin(), mesh.element_of.end(), config.cell) -
+                                 mesh.element_of.begin());
+  const Corners<D> x = mesh.corners_of(marker.cell, mesh.x);
+  const Matrix<D> inverse = inverse_of<D>(edges<D>(x));
+  marker.share[0] = 1;
+  for (int i = 0; i < D; ++i) {
+    for (int j = 0; j < D; ++j) marker.share[i + 1] += inverse[D * i + j] * (config.position[j] - x[0][j]);
+    marker.share[0] -= marker.share[i + 1];
   }
-  const double first =
-      min(nearest == min(nearest) ? static_cast<double>(rank()) : std::numeric_limits<double>::infinity());
-  if (first != rank()) marker.node = -1;
-  markers_.push_back(marker);
 }
 
 template <int D>
@@ -160,7 +162,11 @@ template <int D>
 void LagrangeHistory<D>::add_markers(std::vector<Quantity>& list) const {
   for (const Marker& marker : markers_)
     for (int i = 0; i < D; ++i) {
-      const double moved = marker.node < 0 ? 0 : scheme_.state().x[marker.node][i] - scheme_.mesh().x[marker.node][i];
+      double moved = 0;
+      for (int p = 0; p <= D && marker.cell >= 0; ++p) {
+        const int node = scheme_.mesh().nodes_of[marker.cell][p];
+        moved += marker.share[p] * (scheme_.state().x[node][i] - scheme_.mesh().x[node][i]);
+      }
       list.push_back({fmt::format("marker_{}_u{}", marker.name, axes[i]), "m", sum(moved)});
     }
 }

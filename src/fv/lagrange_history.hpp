@@ -14,7 +14,7 @@ template <int D>
 class LagrangeHistory {
  public:
   /// Collective.
-  LagrangeHistory(const Scheme<D>& scheme, const NodeExchange& exchange, const std::vector<FlowMarker>& markers);
+  LagrangeHistory(const FlowScheme<D>& scheme, const std::vector<MarkerConfig>& markers);
 
   /// Takes in the step that was just accepted. Collective.
   void follow(double dt);
@@ -32,17 +32,17 @@ class LagrangeHistory {
   };
   struct Marker {
     std::string name;
-    int node = -1;  // -1: another rank's
+    int cell = -1;                      // -1: another rank's
+    std::array<double, D + 1> share{};  // of the cell's nodes
   };
   Kept kept() const;
-  void take_marker(const FlowMarker& config);
+  void take_marker(const MarkerConfig& config);
   void add_energies(double time, std::vector<Quantity>& list) const;
   void add_boundaries(std::vector<Quantity>& list) const;
   void add_cells(std::vector<Quantity>& list) const;
   void add_markers(std::vector<Quantity>& list) const;
 
-  const Scheme<D>& scheme_;
-  const NodeExchange& exchange_;
+  const FlowScheme<D>& scheme_;
   std::vector<Marker> markers_;
   std::vector<typename Boundary<D>::Force> forces_;  // of the last step, by condition, all ranks
   Kept start_, now_;

@@ -32,8 +32,8 @@ void set_stress(const Sym3& T, CellFields<D>& q) {
 }  // namespace
 
 template <int D>
-Scheme<D>::Scheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, const FvConfig& config,
-                  std::vector<BoundaryCondition<D>> conditions, const std::vector<CellStart>& start)
+FlowScheme<D>::FlowScheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, const FvConfig& config,
+                          std::vector<BoundaryCondition<D>> conditions, const std::vector<CellStart>& start)
     : mesh_(mesh),
       exchange_(exchange),
       config_(config),
@@ -72,7 +72,7 @@ Scheme<D>::Scheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, const FvCo
 
 /// Shortest time in which a cell of this rank would change by its own volume, as its nodes move now.
 template <int D>
-double Scheme<D>::filling_time() const {
+double FlowScheme<D>::filling_time() const {
   double shortest = std::numeric_limits<double>::infinity();
   for (int c = 0; c < mesh_.cells(); ++c) {
     const Corners<D> normals = corner_normals<D>(mesh_.corners_of(c, now_.x));
@@ -84,7 +84,7 @@ double Scheme<D>::filling_time() const {
 }
 
 template <int D>
-Mat3 Scheme<D>::deformation(int cell, const FlowState<D>& state) const {
+Mat3 FlowScheme<D>::deformation(int cell, const FlowState<D>& state) const {
   const Matrix<D> F = matrix_product<D>(edges<D>(mesh_.corners_of(cell, state.x)), inverse_edges_[cell]);
   Mat3 full = identity;
   for (int i = 0; i < D; ++i)
@@ -93,19 +93,19 @@ Mat3 Scheme<D>::deformation(int cell, const FlowState<D>& state) const {
 }
 
 template <int D>
-double Scheme<D>::internal_energy(int cell, const FlowState<D>& state) const {
+double FlowScheme<D>::internal_energy(int cell, const FlowState<D>& state) const {
   const Vector<D> v = velocity_of<D>(state.cell[cell].q);
   return state.energy[cell] - 0.5 * dot(v, v);
 }
 
 template <int D>
-CellOrder Scheme<D>::first_order() const {
+CellOrder FlowScheme<D>::first_order() const {
   if (config_.order == 1) return CellOrder::constant;
   return config_.limiter == Limiter::barth_jespersen ? CellOrder::limited : CellOrder::linear;
 }
 
 template <int D>
-std::string Scheme<D>::advance(double t, double dt) {
+std::string FlowScheme<D>::advance(double t, double dt) {
   if (config_.predictor == Predictor::rk2 && config_.order == 2) {
     half_step(t, dt);
   } else {
@@ -116,12 +116,14 @@ std::string Scheme<D>::advance(double t, double dt) {
   solve_all(dt, first_order());
   move(all_nodes_, dt);
   update(all_, t, dt);
-  return judge(t, dt);
+  const std::string failure = judge(t, dt);
+  if (!failure.empty()) largest_dt_ = dt / 2;
+  return failure;
 }
 
 /// Euler's half step of the whole scheme: where the second half takes its fields and geometry from.
 template <int D>
-void Scheme<D>::half_step(double t, double dt) {
+void FlowScheme<D>::half_step(double t, double dt) {
   if (!half_) half_ = std::make_unique<FlowState<D>>(mesh_.cells(), mesh_.nodes());
   source_ = {&now_, &now_.x, 0};
   boundary_.prepare(t, dt / 2, now_.x);
@@ -134,7 +136,7 @@ void Scheme<D>::half_step(double t, double dt) {
 }
 
 template <int D>
-void Scheme<D>::solve_all(double dt, CellOrder order) {
+void FlowScheme<D>::solve_all(double dt, CellOrder order) {
   mood_.start(order);
   if (order != CellOrder::constant) reconstruction_.gather(*source_.state);
   if (order == CellOrder::limited) reconstruction_.gather_ranges(*source_.state);
@@ -143,7 +145,7 @@ void Scheme<D>::solve_all(double dt, CellOrder order) {
 }
 
 template <int D>
-void Scheme<D>::load(int b, int cell, PredictedBlock<D>& block) const {
+void FlowScheme<D>::load(int b, int cell, PredictedBlock<D>& block) const {
   const FlowState<D>& state = *source_.state;
   block.g[b] = {};
   if (mood_.order(cell) != CellOrder::constant) block.g[b] = reconstruction_.slopes(cell, state);
@@ -155,7 +157,7 @@ void Scheme<D>::load(int b, int cell, PredictedBlock<D>& block) const {
 }
 
 template <int D>
-void Scheme<D>::find_corners(std::span<const int> cells, double t) {
+void FlowScheme<D>::find_corners(std::span<const int> cells, double t) {
   for_blocks(cells, [&](std::span<const int> run, const Closure& closure) {
     PredictedBlock<D> block;
     block.n = static_cast<int>(run.size());
@@ -173,7 +175,7 @@ void Scheme<D>::find_corners(std::span<const int> cells, double t) {
 }
 
 template <int D>
-void Scheme<D>::write_corners(int cell, const Slopes<D>& g, const CellFields<D>& q) {
+void FlowScheme<D>::write_corners(int cell, const Slopes<D>& g, const CellFields<D>& q) {
   const FlowState<D>& state = *source_.state;
   const CellRecord<D>& record = state.cell[cell];
   const Corners<D> normals = corner_normals<D>(mesh_.corners_of(cell, *source_.x));
@@ -189,13 +191,13 @@ void Scheme<D>::write_corners(int cell, const Slopes<D>& g, const CellFields<D>&
 }
 
 template <int D>
-void Scheme<D>::move(std::span<const int> nodes, double dt) {
+void FlowScheme<D>::move(std::span<const int> nodes, double dt) {
   for (int p : nodes) next_.x[p] = moved(now_.x[p], dt, next_.v[p]);
 }
 
 /// Forces and power of the corners into velocity and total energy of the next state.
 template <int D>
-void Scheme<D>::take_forces(int cell, double dt) {
+void FlowScheme<D>::take_forces(int cell, double dt) {
   const double per_mass = dt / mass_[cell];
   CellRecord<D>& record = next_.cell[cell];
   record.q = now_.cell[cell].q;
@@ -211,7 +213,7 @@ void Scheme<D>::take_forces(int cell, double dt) {
 }
 
 template <int D>
-void Scheme<D>::update(std::span<const int> cells, double t, double dt) {
+void FlowScheme<D>::update(std::span<const int> cells, double t, double dt) {
   for_blocks(cells, [&](std::span<const int> run, const Closure& closure) {
     const int n = static_cast<int>(run.size());
     std::array<Mat3, cells_per_block> F;
@@ -240,7 +242,7 @@ void Scheme<D>::update(std::span<const int> cells, double t, double dt) {
 
 /// Computer and physics: numbers, a volume, a state that the material knows.
 template <int D>
-bool Scheme<D>::has_meaning(int cell) const {
+bool FlowScheme<D>::has_meaning(int cell) const {
   const CellRecord<D>& c = next_.cell[cell];
   const double sum = std::accumulate(c.q.begin(), c.q.end(), next_.energy[cell] + next_.speed[cell]);
   const double change = std::abs(next_.volume[cell] - now_.volume[cell]);
@@ -250,7 +252,7 @@ bool Scheme<D>::has_meaning(int cell) const {
 }
 
 template <int D>
-bool Scheme<D>::in_trouble(int cell) const {
+bool FlowScheme<D>::in_trouble(int cell) const {
   if (!has_meaning(cell)) return true;
   const auto ranges = reconstruction_.ranges(cell);
   const CellRecord<D>& before = now_.cell[cell];
@@ -265,7 +267,7 @@ bool Scheme<D>::in_trouble(int cell) const {
 }
 
 template <int D>
-std::string Scheme<D>::judge(double t, double dt) {
+std::string FlowScheme<D>::judge(double t, double dt) {
   const bool cascade = config_.order == 2 && config_.limiter == Limiter::mood;
   bool ranges = false;
   std::span<const int> cells = all_;
@@ -287,7 +289,7 @@ std::string Scheme<D>::judge(double t, double dt) {
 
 /// The first cell of the lowest rank that has no meaning, in words that all ranks share; "" when all have.
 template <int D>
-std::string Scheme<D>::failure() const {
+std::string FlowScheme<D>::failure() const {
   const auto wrong = std::find_if(all_.begin(), all_.end(), [&](int c) { return !has_meaning(c); });
   const bool failed = wrong != all_.end();
   const double first = min(failed ? static_cast<double>(rank()) : std::numeric_limits<double>::infinity());
@@ -309,19 +311,20 @@ std::string Scheme<D>::failure() const {
 }
 
 template <int D>
-void Scheme<D>::accept(double dt) {
+void FlowScheme<D>::accept(double dt) {
   std::swap(now_, next_);
-  largest_dt_ =
-      std::min((1 + config_.growth) * dt, min(std::min(acoustic_dt(), config_.volume_change * filling_time())));
+  // Steps that the clock shortened, to land on a time, do not hold back the next ones.
+  largest_dt_ = std::min((1 + config_.growth) * std::max(dt, largest_dt_),
+                         min(std::min(acoustic_dt(), config_.volume_change * filling_time())));
 }
 
 /// Of this rank.
 template <int D>
-double Scheme<D>::acoustic_dt() const {
+double FlowScheme<D>::acoustic_dt() const {
   return config_.cfl * *std::min_element(now_.crossing.begin(), now_.crossing.end());
 }
 
-template class Scheme<2>;
-template class Scheme<3>;
+template class FlowScheme<2>;
+template class FlowScheme<3>;
 
 }  // namespace titin

@@ -30,11 +30,11 @@ struct CellStart {
 };
 
 template <int D>
-class Scheme {
+class FlowScheme {
  public:
   /// `start` has one entry for each cell of the mesh. Collective.
-  Scheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, const FvConfig& config,
-         std::vector<BoundaryCondition<D>> conditions, const std::vector<CellStart>& start);
+  FlowScheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, const FvConfig& config,
+             std::vector<BoundaryCondition<D>> conditions, const std::vector<CellStart>& start);
 
   /// Tries a step from the accepted state; returns what went wrong in words, alike on all ranks. Collective.
   std::string advance(double t, double dt);
@@ -99,7 +99,7 @@ class Scheme {
 
 template <int D>
 template <class Work>
-void Scheme<D>::for_blocks(std::span<const int> cells, Work work) const {
+void FlowScheme<D>::for_blocks(std::span<const int> cells, Work work) const {
   for (std::size_t first = 0; first < cells.size();) {
     const Closure* closure = closure_[cells[first]];
     std::size_t end = first + 1;
@@ -109,7 +109,7 @@ void Scheme<D>::for_blocks(std::span<const int> cells, Work work) const {
   }
 }
 
-extern template class Scheme<2>;
-extern template class Scheme<3>;
+extern template class FlowScheme<2>;
+extern template class FlowScheme<3>;
 
 }  // namespace titin

@@ -19,6 +19,8 @@ void OutputConfig::bind(Section& s) {
   s.read("every", every, {.range = {.min = 1}, .doc = "steps between two writes of the fields"});
   s.read("interval", interval,
          {.unit = "s", .range = positive, .doc = "time between two writes of the fields, instead of every"});
+  s.read("history_every", history_every,
+         {.range = {.min = 1}, .doc = "steps between two rows of history.csv; explicit runs have many steps"});
   if (by_steps && by_time) s.error("interval", "excludes output.every", "keep one of them");
 }
 
@@ -35,7 +37,7 @@ Output::Output(const OutputConfig& config, const RunFolder& folder, Model& model
   std::vector<Column> columns = {{"time", "s"}};
   for (const Quantity& q : quantities_) columns.push_back({q.name, q.unit});
   history_ = std::make_unique<TimeSeries>(folder.file("history.csv"), columns);
-  write_row(0);
+  write_row(0, 0);
   if (!config.fields) return;
   ParaView::Fields fields;
   model.update_fields();
@@ -44,15 +46,23 @@ Output::Output(const OutputConfig& config, const RunFolder& folder, Model& model
   write_fields(0, 0);
 }
 
-void Output::write(const Clock& clock) {
+bool Output::write(const Clock& clock) {
   Timers::Scope timer("output");
-  quantities_ = model_.quantities();
-  write_row(clock.time());
+  const bool row_is_due = clock.steps() % config_.history_every == 0 || clock.done();
+  if (row_is_due) {
+    quantities_ = model_.quantities();
+    write_row(clock.steps(), clock.time());
+  }
   if (fields_are_due(clock)) write_fields(clock.steps(), clock.time());
+  return row_is_due;
 }
 
 void Output::finish(const Clock& clock) {
   Timers::Scope timer("output");
+  if (last_row_ != clock.steps()) {
+    quantities_ = model_.quantities();
+    write_row(clock.steps(), clock.time());
+  }
   if (last_fields_ != clock.steps()) write_fields(clock.steps(), clock.time());
 }
 
@@ -71,10 +81,11 @@ bool Output::fields_are_due(const Clock& clock) {
   return due;
 }
 
-void Output::write_row(double time) {
+void Output::write_row(int step, double time) {
   std::vector<double> row = {time};
   for (const Quantity& q : quantities_) row.push_back(q.value);
   history_->add(row);
+  last_row_ = step;
 }
 
 void Output::write_fields(int step, double time) {

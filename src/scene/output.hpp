@@ -1,4 +1,4 @@
-/// What a run writes when: a row of history.csv for every accepted step, fields for ParaView now and then.
+/// What a run writes when: rows of history.csv, fields for ParaView now and then.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,9 @@ namespace titin {
 
 struct OutputConfig {
   bool fields = true;
-  int every = 1;        // steps
-  double interval = 0;  // [s]; 0: by steps
+  int every = 1;          // steps
+  int history_every = 1;  // steps
+  double interval = 0;    // [s]; 0: by steps
   void bind(Section& s);
   std::vector<double> times(double end) const;  ///< when fields are due, if by time
 };
@@ -26,9 +27,9 @@ class Output {
  public:
   /// Writes the initial state.
   Output(const OutputConfig& config, const RunFolder& folder, Model& model);
-  /// Of the state that was just accepted.
-  void write(const Clock& clock);
-  /// The last state is always among the fields.
+  /// Of the state that was just accepted. Returns false when nothing of it goes into the history.
+  bool write(const Clock& clock);
+  /// The last state is always in the history and among the fields.
   void finish(const Clock& clock);
 
   const std::vector<Quantity>& quantities() const { return quantities_; }  ///< as last written
@@ -36,7 +37,7 @@ class Output {
 
  private:
   bool fields_are_due(const Clock& clock);
-  void write_row(double time);
+  void write_row(int step, double time);
   void write_fields(int step, double time);
 
   OutputConfig config_;
@@ -44,7 +45,7 @@ class Output {
   std::vector<Quantity> quantities_;
   std::unique_ptr<TimeSeries> history_;
   std::unique_ptr<ParaView> paraview_;
-  int last_fields_ = -1;  // step
+  int last_fields_ = -1, last_row_ = -1;  // steps
   long intervals_done_ = 0;
 };
 

@@ -21,17 +21,25 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-Progress::Progress(const Quantity& shown)
-    : start_(wall_seconds()), width_(std::max(least_width, static_cast<int>(heading(shown).size()))) {
-  logging::info("{:>6}  {:>10}  {:>10}  {:>6}  {:>6}  {:>8}  {:>{}}  {:>5}  {:>7}", "step", "time [s]", "dt [s]",
-                "newton", "krylov", "residual", heading(shown), width_, "done", "left");
+Progress::Progress(const Quantity& shown, bool is_explicit)
+    : start_(wall_seconds()),
+      width_(std::max(least_width, static_cast<int>(heading(shown).size()))),
+      is_explicit_(is_explicit) {
+  const std::string iterations =
+      is_explicit ? "" : fmt::format("  {:>6}  {:>6}  {:>8}", "newton", "krylov", "residual");
+  logging::info("{:>6}  {:>10}  {:>10}{}  {:>{}}  {:>5}  {:>7}", "step", "time [s]", "dt [s]", iterations,
+                heading(shown), width_, "done", "left");
 }
 
-void Progress::line(const Clock& clock, const Step& step, const Quantity& shown) const {
+void Progress::line(const Clock& clock, const Step& step, const Quantity& shown) {
+  const int percent = static_cast<int>(100 * clock.fraction());
+  if (is_explicit_ && percent == percent_) return;
+  percent_ = percent;
+  const std::string iterations =
+      is_explicit_ ? "" : fmt::format("  {:>6}  {:>6}  {:>8.1e}", step.newton, step.krylov, step.residual);
   const double done = clock.fraction(), left = (wall_seconds() - start_) * (1 - done) / done;
-  logging::info("{:>6}  {:>10.6g}  {:>10.4g}  {:>6}  {:>6}  {:>8.1e}  {:>{}.6g}  {:>3.0f} %  {:>7}", clock.steps(),
-                clock.time(), step.dt, step.newton, step.krylov, step.residual, shown.value, width_, 100 * done,
-                duration(left));
+  logging::info("{:>6}  {:>10.6g}  {:>10.4g}{}  {:>{}.6g}  {:>3.0f} %  {:>7}", clock.steps(), clock.time(), step.dt,
+                iterations, shown.value, width_, 100 * done, duration(left));
 }
 
 }  // namespace titin

@@ -1,4 +1,4 @@
-/// The line of a step: what a user watches.
+/// The line of a step: what a user watches. Explicit runs have many steps, and a line for each percent of their time.
 #pragma once
 
 #include <string>
@@ -10,12 +10,14 @@ namespace titin {
 
 class Progress {
  public:
-  explicit Progress(const Quantity& shown);  ///< prints the header
-  void line(const Clock& clock, const Step& step, const Quantity& shown) const;
+  Progress(const Quantity& shown, bool is_explicit);  ///< prints the header
+  void line(const Clock& clock, const Step& step, const Quantity& shown);
 
  private:
   double start_;
   int width_;  // of the shown quantity's column
+  bool is_explicit_;
+  int percent_ = -1;  // of the last line
 };
 
 /// "0.8 s", "80 s", "3 min", "2.5 h".

@@ -43,7 +43,7 @@ Scene read(const RunOptions& options) {
 class Run {
  public:
   Run(Scene& scene, const RunOptions& options)
-      : scene_(scene), folder_(folder_of(options), options.overwrite), clock_(scene.clock) {
+      : scene_(scene), folder_(folder_of(options), options.overwrite), clock_(scene.clock, scene.model->largest_dt()) {
     summary_.scene = options.scene_file;
     summary_.title = scene.title;
     summary_.model = scene.model->name();
@@ -85,7 +85,7 @@ class Run {
     Model& model = *scene_.model;
     Output out(scene_.output, folder_, model);
     scene_.reference.add(0, out.quantities());
-    const Progress progress(out.shown());
+    Progress progress(out.shown(), scene_.clock.by_stability);
     Outcome outcome = Outcome::finished;
     while (!clock_.done()) {
       if (const std::string signal = signals.received(); !signal.empty()) {
@@ -104,10 +104,10 @@ class Run {
         summary_.newton.rejected += step.newton;
         continue;
       }
-      add_step(summary_, step);
-      model.accept();
+      if (!scene_.clock.by_stability) add_step(summary_, step);
+      accept(model);
       clock_.accept(step, model.largest_dt());
-      out.write(clock_);
+      if (!out.write(clock_)) continue;
       scene_.reference.add(clock_.time(), out.quantities());
       progress.line(clock_, step, out.shown());
     }
@@ -122,6 +122,11 @@ class Run {
     summary_.krylov += step.krylov;
     if (!step.ok()) summary_.newton.failed += step.newton;
     return step;
+  }
+
+  static void accept(Model& model) {
+    Timers::Scope timer("accept");
+    model.accept();
   }
 
   bool cut(const Step& step) {
@@ -161,6 +166,7 @@ class Run {
     add_costs(summary_);
     folder_.write("run.json", summary_.json());
     log_timers(summary_);
+    if (scene_.clock.by_stability) log_explicit_speed(summary_);
     const std::string done = fmt::format("{} in {}; output up to {:.6g} s is in {}", count(clock_.steps(), "step"),
                                          duration(summary_.stepping_seconds), clock_.time(), folder_.path());
     if (outcome == Outcome::finished)
@@ -192,7 +198,11 @@ void check_scene(const RunOptions& options) {
   logging::info("  ranks     {}", ranks());
   logging::info("  cells     {}", model.mesh().GetGlobalNE());
   logging::info("  unknowns  {}", model.unknowns());
-  logging::info("  time      {} of {:g} s to {:g} s", count(steps, "step"), scene.clock.step, scene.clock.end);
+  if (scene.clock.by_stability)
+    logging::info("  time      explicit steps, the first of {:.4g} s, to {:g} s",
+                  std::min(scene.clock.step, model.largest_dt()), scene.clock.end);
+  else
+    logging::info("  time      {} of {:g} s to {:g} s", count(steps, "step"), scene.clock.step, scene.clock.end);
   std::string fields;
   for (const Field& field : model.fields()) fields += (fields.empty() ? "" : ", ") + field.name;
   logging::info("  fields    {}", fields);

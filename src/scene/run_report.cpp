@@ -47,4 +47,12 @@ void log_timers(const RunSummary& summary) {
     logging::detail("{:<24}  {:>10.3f}  {:>10.3f}  {:>9}", name, t.wall, t.cpu, t.calls);
 }
 
+void log_explicit_speed(const RunSummary& summary) {
+  double cpu = 0;
+  for (const char* phase : {"step", "accept"})
+    if (const auto found = summary.timers.find(phase); found != summary.timers.end()) cpu += found->second.cpu;
+  if (cpu > 0)
+    logging::info("{:.3g} cell-steps per CPU-second", static_cast<double>(summary.cells) * summary.steps / cpu);
+}
+
 }  // namespace titin

@@ -16,5 +16,7 @@ void add_costs(RunSummary& summary);
 void add_step(RunSummary& summary, const Step& step);
 /// The phases and what they took, longest first, into the log.
 void log_timers(const RunSummary& summary);
+/// The figure of merit of explicit formulations, into the log.
+void log_explicit_speed(const RunSummary& summary);
 
 }  // namespace titin

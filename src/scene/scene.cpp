@@ -1,38 +1,47 @@
 #include "scene/scene.hpp"
 
+#include <set>
+
 #include "fe/muscle.hpp"
+#include "fv/lagrange.hpp"
 #include "mesh/mesh.hpp"
 
 namespace titin {
 
 namespace {
 
-enum class Formulation { muscle };
+enum class ModelName { muscle, lagrange };
 
 /// The walk through all keys: the same for a scene and for the list of keys.
 struct SceneConfig {
   std::string title;
-  Formulation formulation = Formulation::muscle;
+  ModelName model = ModelName::muscle;
   MeshConfig mesh;
   ClockConfig clock;
   OutputConfig output;
   Reference reference;
   MuscleConfig muscle;
   PetscOptionsConfig petsc;
+  LagrangeConfig lagrange;
 
   NamedMesh bind(Section root) {
     root.read("title", title, {.doc = "one line that says what happens"});
-    root.choose("model", formulation, {{"muscle", Formulation::muscle}}, {.required = true, .doc = "the formulation"});
+    root.choose("model", model, {{"muscle", ModelName::muscle}, {"lagrange", ModelName::lagrange}},
+                {.required = true, .doc = "the formulation"});
     Section mesh_section = root.section("mesh", "a box, or a file");
     mesh.bind(mesh_section);
     NamedMesh named = root.describing() ? NamedMesh{} : NamedMesh::read(mesh, mesh_section);
     Section time = root.section("time", "from 0 to the end by steps");
+    clock.by_stability = model == ModelName::lagrange;
     clock.bind(time);
     Section out = root.section("output", "what is written, and when");
     output.bind(out);
-    muscle.bind(root, named);
-    Section options = root.section("petsc", "options of PETSc and hypre, for those who know them");
-    petsc.bind(options);
+    if (root.describing() || model == ModelName::muscle) {
+      muscle.bind(root, named);
+      Section options = root.section("petsc", "options of PETSc and hypre, for those who know them");
+      petsc.bind(options);
+    }
+    if (root.describing() || model == ModelName::lagrange) lagrange.bind(root, named);
     Section other = root.section("reference", "a history to compare with");
     reference.bind(other);
     root.leave("test");
@@ -50,7 +59,10 @@ Scene Scene::read(const std::string& file, const std::vector<std::string>& overr
   Scene scene{config.title,   config.clock, config.output, nullptr, nullptr, std::move(config.reference),
               text.resolved()};
   scene.petsc = std::make_unique<PetscOptionsInForce>(std::move(config.petsc));
-  scene.model = std::make_unique<Muscle>(std::move(mesh), std::move(config.muscle));
+  if (config.model == ModelName::muscle)
+    scene.model = std::make_unique<Muscle>(std::move(mesh), std::move(config.muscle));
+  else
+    scene.model = make_lagrange(std::move(mesh), std::move(config.lagrange));
   scene.reference.match(scene.model->quantities(), text.root().section("reference"));
   text.finish();
   return scene;
@@ -60,7 +72,10 @@ std::vector<KeyRecord> scene_keys() {
   Config keys = Config::describing();
   SceneConfig config;
   config.bind(keys.root());
-  return keys.keys();
+  std::vector<KeyRecord> list = keys.keys();
+  std::set<std::string> seen;  // formulations share keys
+  std::erase_if(list, [&](const KeyRecord& key) { return !seen.insert(key.path).second; });
+  return list;
 }
 
 }  // namespace titin

@@ -22,11 +22,16 @@ constexpr double least_excess = 1e-10;
 
 void ClockConfig::bind(Section& s) {
   s.read("end", end, {.unit = "s", .range = positive, .required = true, .doc = "end of the simulated time"});
+  if (by_stability) step = end;
   s.read(
       "step", step,
-      {.unit = "s", .range = positive, .required = true, .doc = "nominal time step; the first one of adaptive steps"});
+      {.unit = "s",
+       .range = positive,
+       .required = !by_stability,
+       .doc = "nominal time step; the first one of adaptive steps; the longest of explicit ones (default: the end)"});
   s.read("max_cuts", max_cuts,
          {.range = {.min = 0, .max = 60}, .doc = "how often in a row a step that fails is halved before the run ends"});
+  if (by_stability) return;
   s.read("tolerance", tolerance,
          {.range = {.min = 0, .max = 1},
           .doc = "of adaptive steps: error of the displacement over its size, to which the error of the run is "
@@ -36,7 +41,8 @@ void ClockConfig::bind(Section& s) {
     s.error("largest_step", "limits adaptive steps, and this run keeps its step", "give time.tolerance, such as 1e-3");
 }
 
-Clock::Clock(const ClockConfig& config) : config_(config), dt_(std::min(config.step, config.end)) {}
+Clock::Clock(const ClockConfig& config, double largest_dt)
+    : config_(config), dt_(std::min(config.step, config.end)), largest_dt_(largest_dt) {}
 
 void Clock::land_on(const std::vector<double>& times) {
   landings_.insert(landings_.end(), times.begin(), times.end());
@@ -47,7 +53,7 @@ bool Clock::done() const { return time_ >= config_.end; }
 
 /// The next time that a step must not pass.
 double Clock::target() const {
-  if (!adaptive()) return config_.end;
+  if (!varies()) return config_.end;
   const auto next = std::upper_bound(landings_.begin(), landings_.end(), time_ + sliver * config_.step);
   return next == landings_.end() ? config_.end : std::min(*next, config_.end);
 }
@@ -57,8 +63,8 @@ bool Clock::reaches(double time, double dt) const { return time - time_ <= dt * 
 double Clock::dt() const {
   const double dt = std::min(dt_, largest_dt_), remaining = target() - time_;
   const bool same = std::abs(remaining - dt) <= sliver * dt;
-  if (reaches(target(), dt)) return same && !adaptive() ? dt : remaining;
-  return adaptive() && reaches(target(), 2 * dt) ? remaining / 2 : dt;  // two equal steps, not one and a rest
+  if (reaches(target(), dt)) return same && !varies() ? dt : remaining;
+  return varies() && reaches(target(), 2 * dt) ? remaining / 2 : dt;  // two equal steps, not one and a rest
 }
 
 double Clock::fraction() const { return time_ / config_.end; }
@@ -120,7 +126,7 @@ void Clock::control(const Step& step, double tried) {
 
 bool Clock::cut(const Step&) {
   const double half = dt() / 2;
-  if (cuts_in_a_row_ >= config_.max_cuts || half < smallest_part * config_.step) return false;
+  if (cuts_in_a_row_ >= config_.max_cuts || half < smallest_part * std::min(config_.step, largest_dt_)) return false;
   dt_ = half;
   ++cuts_in_a_row_;
   ++cuts_;

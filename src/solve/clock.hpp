@@ -9,6 +9,8 @@
 /// (Gustafsson 1991, ACM Trans. Math. Softw. 17:533), p the order of the scheme: steps with e <= 1 are accepted, and
 /// what such steps add up to in a run is proportional to the tolerance. They land on every time at which something has
 /// a kink or is to be written. No step goes past the end.
+///
+/// Explicit formulations say themselves how long a step may be (Model::largest_dt); theirs land on those times too.
 #pragma once
 
 #include <limits>
@@ -22,17 +24,19 @@ namespace titin {
 struct ClockConfig {
   double end = 0, step = 0;  // [s]
   int max_cuts = 8;
-  double tolerance = 0;     // of adaptive steps; 0: fixed ones
-  double largest_step = 0;  // [s] of adaptive steps; 0: no limit
+  double tolerance = 0;       // of adaptive steps; 0: fixed ones
+  double largest_step = 0;    // [s] of adaptive steps; 0: no limit
+  bool by_stability = false;  // explicit formulation: steps are as long as it can take them, `step` at most
   void bind(Section& s);
 };
 
 class Clock {
  public:
-  explicit Clock(const ClockConfig& config);
+  /// `largest_dt` [s]: what the formulation can take from the start (Model::largest_dt).
+  explicit Clock(const ClockConfig& config, double largest_dt = std::numeric_limits<double>::infinity());
 
   bool adaptive() const { return config_.tolerance > 0; }
-  /// Adaptive steps end exactly at these times, besides the end of the run.
+  /// Adaptive and explicit steps end exactly at these times, besides the end of the run.
   void land_on(const std::vector<double>& times);
 
   bool done() const;
@@ -52,13 +56,14 @@ class Clock {
  private:
   double target() const;
   bool reaches(double time, double dt) const;
+  bool varies() const { return adaptive() || config_.by_stability; }
   double excess(const Step& step) const;
   void grow_back(const Step& step);
   void control(const Step& step, double tried);
 
   ClockConfig config_;
   double time_ = 0, dt_ = 0;
-  double largest_dt_ = std::numeric_limits<double>::infinity();
+  double largest_dt_;
   double origin_ = 0, stride_ = 0;  // since the step last changed, time is origin + strides * stride
   long strides_ = 0;
   int steps_ = 0, cuts_ = 0, cuts_in_a_row_ = 0, easy_steps_ = 0, rejected_ = 0;

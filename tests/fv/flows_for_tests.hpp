@@ -102,7 +102,7 @@ struct Flow {
       cells.push_back(start(centroid<D>(mesh.corners_of(c, mesh.x)), *closure));
       cells.back().closure = closure.get();
     }
-    scheme = std::make_unique<Scheme<D>>(mesh, exchange, config, std::move(conditions), cells);
+    scheme = std::make_unique<FlowScheme<D>>(mesh, exchange, config, std::move(conditions), cells);
   }
 
   /// One step of the largest size, or less; halved when it fails, as the clock does.
@@ -124,7 +124,7 @@ struct Flow {
   std::unique_ptr<Closure> closure;
   SimplexMesh<D> mesh;
   NodeExchange exchange;
-  std::unique_ptr<Scheme<D>> scheme;
+  std::unique_ptr<FlowScheme<D>> scheme;
   double t = 0, last_dt = 0;
   int steps = 0;
 };
@@ -135,7 +135,7 @@ struct Totals {
 };
 
 template <int D>
-Totals totals(const Scheme<D>& scheme) {
+Totals totals(const FlowScheme<D>& scheme) {
   std::vector<double> x(5);
   for (int c = 0; c < scheme.mesh().cells(); ++c) {
     const double m = scheme.mass(c);
@@ -149,7 +149,7 @@ Totals totals(const Scheme<D>& scheme) {
 
 /// Of all conditions over the last step, all ranks: force [N] and power [W].
 template <int D>
-typename Boundary<D>::Force boundary_force(const Scheme<D>& scheme) {
+typename Boundary<D>::Force boundary_force(const FlowScheme<D>& scheme) {
   std::vector<typename Boundary<D>::Force> of(scheme.boundary().conditions().size());
   scheme.boundary().add_forces(scheme.state().v, of);
   std::vector<double> x(D + 1);
