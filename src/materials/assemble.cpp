@@ -22,14 +22,22 @@ struct Shapes {
   std::array<Pair, 3 + invariant_count> dyads;  ///< left_iJ right_kL
   int dyad_count = 0;
 
-  // Of I2 and I5 only.
+  // Of I2 and I5, set only with them.
   bool quartic = false;
-  Tensor3<T> B{};  ///< B_ik delta_JL
-  T ff = 0;        ///< F_iL F_kJ
-  Tensor3<T> Z{};  ///< Z (x) F
-  Tensor3<T> K{};  ///< K_iL F_kJ + F_iL K_kJ
-  Tensor3<T> b{};  ///< b_ik (a0 (x) a0)_JL
+  T ff;          ///< F_iL F_kJ
+  Tensor3<T> B;  ///< B_ik delta_JL
+  // Of I2, set only with it.
+  Tensor3<T> Z;  ///< Z (x) F
+  // Of I5, set only with it.
+  bool fifth = false;
+  Tensor3<T> K;  ///< K_iL F_kJ + F_iL K_kJ
+  Tensor3<T> b;  ///< b_ik (a0 (x) a0)_JL
 
+  void start_quartic() {
+    quartic = true;
+    ff = 0;
+    B.fill(T(0));
+  }
   void add_dyad(const Tensor3<T>& left, const Tensor3<T>& right) { dyads[dyad_count++] = {&left, &right}; }
 };
 
@@ -96,6 +104,7 @@ void add_fifth(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Shapes<T>&
   add(A.N, w2, dyad(c, k.a0));
   add(A.N, w2, dyad(k.a0, c));
   add(A.B, w2, dyad(k.f, k.f));
+  A.fifth = true;
   A.K = scaled(w2, dyad(k.f, k.a0));
   A.b = scaled(w2, multiply(k.F, transpose(k.F)));
   if (full) return;
@@ -114,7 +123,7 @@ void add_volume(const Kinematics<T>& k, const EnergyDerivatives<T>& W, Shapes<T>
 template <class T>
 Shapes<T> second_gradients(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W) {
   Shapes<T> A;
-  A.quartic = used.has_any({Invariant::I2, Invariant::I5});
+  if (used.has_any({Invariant::I2, Invariant::I5})) A.start_quartic();
   add_quadratic(k, used, W, A);
   if (used.has(Invariant::I2)) add_second(k, W, A);
   if (used.has(Invariant::I5)) add_fifth(k, W, A);
@@ -126,11 +135,13 @@ template <class T>
 void add_quartic_row(const Kinematics<T>& k, const Shapes<T>& A, int i, int J, T* row) {
   const Tensor3<T>& F = k.F;
   for (int c = 0; c < 3; ++c) {
+    for (int D = 0; D < 3; ++D) row[3 * c + D] += A.ff * F[3 * i + D] * F[3 * c + J];
+    row[3 * c + J] += A.B[3 * i + c];
+    if (!A.fifth) continue;
     for (int D = 0; D < 3; ++D) {
       const T crossed = A.K[3 * i + D] * F[3 * c + J] + F[3 * i + D] * A.K[3 * c + J];
-      row[3 * c + D] += A.ff * F[3 * i + D] * F[3 * c + J] + crossed + A.b[3 * i + c] * k.a0[J] * k.a0[D];
+      row[3 * c + D] += crossed + A.b[3 * i + c] * k.a0[J] * k.a0[D];
     }
-    row[3 * c + J] += A.B[3 * i + c];
   }
 }
 
@@ -184,7 +195,7 @@ template <class T>
 Tensor3<T> assemble_tangent(const Kinematics<T>& k, InvariantSet used, const EnergyDerivatives<T>& W,
                             std::array<T, 81>& A) {
   const auto G = gradients(k, used);
-  PerInvariant<Tensor3<T>> V;  // sum_b W_ab G_b
+  PerInvariant<Tensor3<T>> V;  // sum_b W_ab G_b, where not zero: many energies are linear in an invariant
   Shapes<T> shapes = second_gradients(k, used, W);
   shapes.add_dyad(k.Ft, shapes.Y);
   shapes.add_dyad(shapes.Y, k.Ft);
@@ -194,10 +205,17 @@ Tensor3<T> assemble_tangent(const Kinematics<T>& k, InvariantSet used, const Ene
   for (int a = 0; a < force_count; ++a) {
     if (!used.has(Invariant(a))) continue;
     add(P, W.first[a], G[a]);
-    V[a] = scaled(W.second[a][a], G[a]);
-    for (int b = 0; b < columns; ++b)
-      if (b != a && used.has(Invariant(b))) add(V[a], W.second[a][b], G[b]);
-    shapes.add_dyad(G[a], V[a]);
+    bool any = false;
+    for (int b = 0; b < columns; ++b) {
+      const T& w = W.second[a][b];
+      if (!used.has(Invariant(b)) || all_zero(w)) continue;
+      if (any)
+        add(V[a], w, G[b]);
+      else
+        V[a] = scaled(w, G[b]);
+      any = true;
+    }
+    if (any) shapes.add_dyad(G[a], V[a]);
   }
   write(k, shapes, A);
   return P;

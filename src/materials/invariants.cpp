@@ -107,7 +107,7 @@ void deform(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fi
 
 template <class T>
 PerInvariant<T> values(const Kinematics<T>& k, InvariantSet used) {
-  PerInvariant<T> v{};
+  PerInvariant<T> v;
   const T y2 = k.y * k.y;
   const T y2_1 = -(y2 * k.y * k.J_1) * (k.y + 1.0) / (1.0 + k.y + y2);  // J^-2/3 - 1
   const T y4 = y2 * y2, y4_1 = y2_1 * (y2 + 1.0);

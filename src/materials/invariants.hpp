@@ -82,20 +82,20 @@ struct FibreOptions {
 /// A point's deformation, ready for values and gradients. T is a number, or Lanes for several points at once.
 template <class T>
 struct Kinematics {
-  Tensor3<T> F, Ft, E;   ///< Ft = F^-T; E = Green strain
-  T J_1, J;              ///< J - 1 without cancellation, J
-  T y;                   ///< J^-1/3
-  Vector3<T> a0{}, f{};  ///< first fibre direction and F a0
-  Vector3<T> b0{}, g{};  ///< second fibre direction and F b0
+  Tensor3<T> F, Ft, E;  ///< Ft = F^-T; E = Green strain
+  T J_1, J;             ///< J - 1 without cancellation, J
+  T y;                  ///< J^-1/3
+  Vector3<T> a0, f;     ///< first fibre direction and F a0; set when used, as all that follows
+  Vector3<T> b0, g;     ///< second fibre direction and F b0
   FibreOptions options;
-  std::array<T, 2> rate{};           ///< of the stretch, by family [1/s]
+  std::array<T, 2> rate;             ///< of the stretch, by family [1/s]
   std::array<Tensor3<T>, 2> G_rate;  ///< their gradients; set for FibreRate::velocity_gradient only
 };
 
 /// Unit fibre directions in the reference configuration.
 template <class T>
 struct FibrePair {
-  Vector3<T> first{}, second{};
+  Vector3<T> first, second;
 };
 
 /// What `used` invariants need of a deformation, into k; `F_old` and `fibres` are looked at only when they do.
@@ -116,7 +116,8 @@ Quadratic<T> quadratic(const Kinematics<T>& k, Invariant a) {
   return {k.a0, k.b0, k.f, k.g};
 }
 
-/// The invariants' excess over rest: I1 - 3, I2 - 3, J - 1, I4 - 1, I5 - 1, I6 - 1, I8 - a0 . b0, rates.
+/// The used invariants' excess over rest, the others not set: I1 - 3, I2 - 3, J - 1, I4 - 1, I5 - 1, I6 - 1, I8 - a0 .
+/// b0, rates.
 template <class T>
 PerInvariant<T> values(const Kinematics<T>& k, InvariantSet used);
 

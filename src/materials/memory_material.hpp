@@ -49,7 +49,7 @@ class MemoryMaterial final : public Material {
   const Remembering* remembering(int term) const;  // null for a plain term
 
   SumMaterial elastic_, plain_;  // all terms without their memory; those that have none
-  FibrePair<double> fibres_;     // where the caller gives none
+  FibrePair<double> fibres_{};   // where the caller gives none
   std::vector<TermInfo> infos_;  // plain ones first
   std::vector<Remembering> remembering_;
   int history_size_ = 0;

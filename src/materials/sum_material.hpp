@@ -28,7 +28,7 @@ class SumMaterial final : public Material {
  public:
   struct Parts {
     double density = 0;
-    FibrePair<double> fibres;
+    FibrePair<double> fibres{};
     FibreMeasure measure = FibreMeasure::isochoric;
     std::vector<WeightedTerm> terms;
     std::vector<WeightedVolumetric> volumetric;

@@ -15,6 +15,9 @@ namespace titin {
 using Lanes = std::experimental::native_simd<double>;
 inline constexpr int lane_count = static_cast<int>(Lanes::size());
 
+inline bool all_zero(const Lanes& x) { return all_of(x == 0.0); }
+inline bool all_zero(double x) { return x == 0; }
+
 /// Component `c` of the points first, first+1, ...; the last of `n` points fills the lanes that are left over.
 template <class Array>
 Lanes gather(const Array* points, std::size_t c, int first, int n) {
