@@ -8,7 +8,8 @@ namespace {
 
 constexpr int pack = 8;  // doubles in the widest vector register we care for
 
-/// Exponents (a, b, c) of the monomials of degree <= d in so many dimensions, constant first; none for d < 0.
+}  // namespace
+
 std::vector<std::array<int, 3>> monomials(int d, int dimension) {
   std::vector<std::array<int, 3>> list;
   for (int n = 0; n <= d; ++n)
@@ -17,8 +18,6 @@ std::vector<std::array<int, 3>> monomials(int d, int dimension) {
         if (dimension == 3 || a + b == n) list.push_back({a, b, n - a - b});
   return list;
 }
-
-}  // namespace
 
 CellTables::CellTables(const mfem::ParFiniteElementSpace& space, const CellElements& elements, int points,
                        double thickness)

@@ -12,6 +12,9 @@
 
 namespace titin {
 
+/// Exponents (a, b, c) of the monomials of degree <= d in so many dimensions, constant first; none for d < 0.
+std::vector<std::array<int, 3>> monomials(int d, int dimension);
+
 class CellTables {
  public:
   /// `points` per direction (see CellElements::rule); `thickness` of a plane body [m], 1 for solid ones.

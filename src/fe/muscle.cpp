@@ -11,6 +11,9 @@ namespace {
 
 /// Of the body's size: errors are not held against displacements that are smaller.
 constexpr double small_displacement = 1e-3;
+/// Of a step: its end is a sum, and may lie behind a kink of what is prescribed by round-off. Rates are taken before
+/// it.
+constexpr double round_off = 1e-9;
 
 }  // namespace
 
@@ -30,6 +33,7 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
   upper -= lower;
   size_ = upper.Norml2();
   prescribed_ = prescribed_rate_ = trial_;
+  if (config_.error_estimate) recovery_ = std::make_unique<StressRecovery>(system_);
   start();
   follow(system_.step());
 }
@@ -51,7 +55,16 @@ Newton& Muscle::newton() {
 void Muscle::follow(const StepState& step) {
   history_.update(displacement(), integrator_.v(), step);
   quantities_ = history_.quantities();
+  if (recovery_) {
+    recovery_->update(displacement());
+    for (const Quantity& quantity : recovery_->quantities()) quantities_.push_back(quantity);
+  }
   conservation_.update(quantities_);
+}
+
+void Muscle::update_fields() {
+  fields_.update(displacement(), integrator_.seen_velocity());
+  if (recovery_) fields_.set_stress_error(*recovery_);
 }
 
 Step Muscle::advance(double dt) {
@@ -61,7 +74,7 @@ Step Muscle::advance(double dt) {
   step.time = time_ + dt;
   step.dt = dt;
   system_.constraints().set_values(step.time, prescribed_);
-  system_.constraints().set_rates(step.time, prescribed_rate_);
+  system_.constraints().set_rates(step.time - round_off * dt, prescribed_rate_);
   integrator_.begin(dt, {system_.constraints().dofs(), prescribed_, prescribed_rate_});
   system_.step() = StepState(integrator_, step.time);
   step.failure = predict(step);

@@ -7,6 +7,7 @@
 #include "fe/muscle_fields.hpp"
 #include "fe/muscle_history.hpp"
 #include "fe/muscle_system.hpp"
+#include "fe/stress_recovery.hpp"
 #include "solve/model.hpp"
 
 namespace titin {
@@ -27,7 +28,7 @@ class Muscle : public Model {
   std::vector<Quantity> quantities() override { return quantities_; }
   std::vector<Quantity> conservation() override { return conservation_.list(); }
   std::string shown_quantity() const override { return history_.shown(); }
-  void update_fields() override { fields_.update(displacement(), integrator_.seen_velocity()); }
+  void update_fields() override;
   const std::vector<Field>& fields() const override { return fields_.fields(); }
   mfem::ParMesh& mesh() override { return *mesh_.mesh; }
   long unknowns() const override { return static_cast<long>(space_.GlobalTrueVSize()); }
@@ -55,6 +56,7 @@ class Muscle : public Model {
   Conservation conservation_;
   std::vector<Quantity> quantities_;  // of the accepted state
   MuscleFields fields_;
+  std::unique_ptr<StressRecovery> recovery_;  // null unless asked for
   double time_ = 0;
   bool remember_ = false;                      // the history of the accepted step has still to become the past
   double size_ = 0, largest_change_ = 0;       // [m] of the body; of the displacement so far, root mean square

@@ -41,6 +41,10 @@ void bind_formulation(Section s, MuscleConfig& c, const NamedMesh& mesh) {
            {{"stretch_difference", FibreRate::stretch_difference}, {"velocity_gradient", FibreRate::velocity_gradient}},
            {.doc = "rate of the fibre's stretch in a step: from its two ends (symmetric tangent), or from the velocity "
                    "gradient"});
+  s.read(
+      "error_estimate", c.error_estimate,
+      {.doc = "estimate after each step how far the stress is off because cells are not smaller: field stress_error, "
+              "columns stress_error and stress_error_relative"});
   s.read("pennation_axis", c.pennation_axis, {.doc = "direction that pennation angles are measured from"});
   if (!(norm(c.pennation_axis) > 0))
     s.error("pennation_axis", "a direction of length zero", "give the line of action, e.g. [1, 0, 0]");

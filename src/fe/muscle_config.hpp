@@ -26,6 +26,7 @@ struct MuscleConfig {
   int quadrature = 0;     // Gauss points per direction; 0: order + 1
   CellElements elements;  // by geometry of the cells
   FibreRate fibre_rate = FibreRate::stretch_difference;
+  bool error_estimate = false;
   std::array<double, 3> pennation_axis{1, 0, 0};
   std::array<double, 3> body_acceleration{};  // [m/s^2]
   Table body_scale{1};

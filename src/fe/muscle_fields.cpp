@@ -61,6 +61,7 @@ MuscleFields::MuscleFields(MuscleSystem& system)
   activation_ = fields_.add("activation", "", scalars_);
   direction_ = fields_.add("fibre_direction", "", vectors_);
   stress_ = fields_.add("cauchy_stress", "Pa", tensors_);
+  if (system.config().error_estimate) stress_error_ = fields_.add("stress_error", "Pa", constants_);
   auto* region = fields_.add("region", "", constants_);
   for (int cell = 0; cell < constants_.GetNE(); ++cell) (*region)(cell) = constants_.GetParMesh()->GetAttribute(cell);
 }
@@ -70,6 +71,10 @@ void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v) {
   draw(v, *velocity_);
   system_.for_each_cell(
       u, [&](int cell, const Material& material, const ThreeField& kernel) { update_points(cell, material, kernel); });
+}
+
+void MuscleFields::set_stress_error(const StressRecovery& recovery) {
+  for (int cell = 0; cell < constants_.GetNE(); ++cell) (*stress_error_)(cell) = recovery.density(cell);
 }
 
 mfem::Geometry::Type MuscleFields::geometry_of(int cell) const {

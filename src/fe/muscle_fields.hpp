@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fe/muscle_system.hpp"
+#include "fe/stress_recovery.hpp"
 #include "solve/field_list.hpp"
 
 namespace titin {
@@ -19,6 +20,7 @@ class MuscleFields {
 
   /// The step that the system holds gives the rates. Collective.
   void update(const mfem::Vector& u, const mfem::Vector& v);
+  void set_stress_error(const StressRecovery& recovery);
   const std::vector<Field>& fields() const { return fields_.fields(); }
 
  private:
@@ -36,7 +38,7 @@ class MuscleFields {
   std::array<mfem::DenseMatrix, mfem::Geometry::NumGeom> evaluation_;  // drawn nodes x nodes
   FieldList fields_;
   mfem::ParGridFunction *displacement_, *velocity_, *pressure_, *dilatation_, *stretch_, *rate_, *activation_,
-      *direction_, *stress_;
+      *direction_, *stress_, *stress_error_ = nullptr;
 };
 
 }  // namespace titin

@@ -1,25 +1,30 @@
-/// How far the stress is off, cell by cell: its distance from a continuous stress (Zienkiewicz, Zhu 1987, Int. J.
-/// Numer. Meth. Eng. 24:337).
+/// How far the stress is off, cell by cell: its distance from a smoother one (Zienkiewicz, Zhu 1992, Int. J. Numer.
+/// Meth. Eng. 33:1331).
 ///
-///   e_K^2 = int_K |P* - P|^2 dV,   P* the L2 projection of the first Piola stress P onto continuous P_k or Q_k
+///   e_K^2 = int_K |P* - P|^2 dV,   P* = sum over vertices v of the cell of N_v p_v
 ///
-/// P is discontinuous between cells and less accurate than its projection, so e is near the true error of P in L2 where
-/// the solution is smooth. Where materials meet, the stress may jump in truth; the estimate there is too large.
+/// P is the first Piola stress, N_v the linear shape function of a vertex, and p_v the complete polynomial of degree k
+/// nearest to P, in L2, over the cells around v. One polynomial cannot follow what repeats from cell to cell, which is
+/// the leading error of P: Legendre's polynomial of degree k in each. (A projection onto *continuous* functions can, if
+/// k is even: at both ends of a cell that polynomial is 1, so the error is continuous, is kept, and goes unseen.)
+///
+/// Polynomials end where materials meet: stresses may jump there. Around a vertex at the surface there are too few
+/// cells to tell; cells with vertices inside their material take the polynomials of those alone.
 #pragma once
 
-#include <array>
-#include <memory>
 #include <mfem.hpp>
 #include <vector>
 
 #include "fe/muscle_system.hpp"
+#include "fe/patch_fit.hpp"
+#include "solve/model.hpp"
 
 namespace titin {
 
 class StressRecovery {
  public:
-  /// `thickness` of a plane body [m], 1 for solid ones.
-  StressRecovery(MuscleSystem& system, double thickness);
+  /// Collective.
+  explicit StressRecovery(MuscleSystem& system);
 
   /// Of the state u at the end of the step that the system holds. Collective.
   void update(const mfem::Vector& u);
@@ -27,22 +32,19 @@ class StressRecovery {
   double density(int cell) const;                                     ///< e_K over the root of the cell's volume [Pa]
   double error() const { return error_; }                             ///< root of the sum of e_K^2 over all ranks
   double relative() const { return norm_ > 0 ? error_ / norm_ : 0; }  ///< over the norm of P
+  /// Over the root of the body's volume [Pa], and relative.
+  std::vector<Quantity> quantities() const;
 
  private:
   void take_stress(const mfem::Vector& u);
-  mfem::Vector smooth(int component);
-  int first_point(int cell) const { return first_point_[cell]; }
-  const std::vector<double>& shapes(int cell) const;
+  void compare(const PatchFit& fit);
 
   MuscleSystem& system_;
-  mfem::H1_FECollection collection_;
-  mfem::ParFiniteElementSpace space_;
-  std::unique_ptr<mfem::HypreParMatrix> mass_;
-  std::array<std::vector<double>, mfem::Geometry::NumGeom> shapes_;  // [q][a] by geometry of the cell
-  std::vector<int> first_point_;
-  std::vector<Mat3> stress_;  // at the points of all cells
+  CellPoints points_;
+  std::vector<PatchFit> fits_;  // of each material
+  std::vector<Mat3> stress_;    // at points
   std::vector<double> cell_error_;
-  double error_ = 0, norm_ = 0;
+  double error_ = 0, norm_ = 0, volume_ = 0;
 };
 
 }  // namespace titin
