@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "base/parallel.hpp"
@@ -16,7 +17,7 @@ namespace titin {
 bool BoundaryConfig::loaded() const {
   const bool has_traction = traction != std::array<double, 3>{0, 0, 0};
   const bool has_pressure = !pressure.is_constant() || pressure(0) != 0;
-  return has_traction || has_pressure;
+  return has_traction || has_pressure || support.given();
 }
 
 void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
@@ -34,6 +35,7 @@ void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
   s.read("traction_scale", traction_scale, {.doc = "factor of the traction, constant or in time"});
   s.read("pressure", pressure,
          {.unit = "Pa", .doc = "follower pressure on the deformed surface, positive when it pushes"});
+  support.bind(s);
 }
 
 Constraints::Constraints(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh,
@@ -75,6 +77,7 @@ FaceLoads::FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedM
   for (const auto& boundary : boundaries) {
     if (!boundary.loaded()) continue;
     has_follower_ = has_follower_ || !boundary.pressure.is_constant() || boundary.pressure(0) != 0;
+    has_supports_ = has_supports_ || boundary.support.given();
     const auto marker = mesh.boundary_marker(boundary.on);
     for (int i = 0; i < mesh.mesh->GetNBE(); ++i) {
       if (!marker[mesh.mesh->GetBdrAttribute(i) - 1]) continue;
@@ -84,13 +87,14 @@ FaceLoads::FaceLoads(const std::vector<BoundaryConfig>& boundaries, const NamedM
           elements.face_rule(map->GetGeometryType(), mesh.mesh->GetElementGeometry(map->Elem1No), points);
       add_face(*map, boundary, rule, *space.GetFE(map->Elem1No), mesh.thickness);
     }
+    set_area(boundary);
   }
 }
 
 void FaceLoads::add_face(mfem::FaceElementTransformations& map, const BoundaryConfig& load,
                          const mfem::IntegrationRule& rule, const mfem::FiniteElement& element, double thickness) {
   const int nodes = element.GetDof();
-  Face face{&load, {}};
+  Face face{&load, 0, {}};
   mfem::Vector shape(nodes), normal(dimension_);
   mfem::DenseMatrix slope(nodes, dimension_), gradient(nodes, dimension_);
   for (int q = 0; q < rule.GetNPoints(); ++q) {
@@ -100,7 +104,9 @@ void FaceLoads::add_face(mfem::FaceElementTransformations& map, const BoundaryCo
     element.CalcDShape(in_cell, slope);
     mfem::Mult(slope, map.Elem1->InverseJacobian(), gradient);
     mfem::CalcOrtho(map.Jacobian(), normal);  // outward of cell 1, as long as the area is large
-    Point point{{shape.begin(), shape.end()}, std::vector<double>(3 * nodes), {}};
+    Point point{{shape.begin(), shape.end()}, std::vector<double>(3 * nodes), {}, {}};
+    mfem::Vector X(point.X.data(), dimension_);
+    map.Elem1->Transform(in_cell, X);
     for (int J = 0; J < dimension_; ++J) {
       point.normal[J] = rule.IntPoint(q).weight * thickness * normal(J);
       for (int a = 0; a < nodes; ++a) point.G[J * nodes + a] = gradient(a, J);
@@ -108,6 +114,44 @@ void FaceLoads::add_face(mfem::FaceElementTransformations& map, const BoundaryCo
     face.points.push_back(std::move(point));
   }
   faces_of_cell_[map.Elem1No].push_back(std::move(face));
+}
+
+/// Collective.
+void FaceLoads::set_area(const BoundaryConfig& load) {
+  const auto for_each_face = [&](auto visit) {
+    for (auto& faces : faces_of_cell_)
+      for (Face& face : faces)
+        if (face.load == &load) visit(face);
+  };
+  double area = 0;
+  for_each_face([&](Face& face) {
+    for (const Point& point : face.points) area += norm(point.normal);
+  });
+  area = sum(area);
+  for_each_face([&](Face& face) { face.whole_area = area; });
+}
+
+SupportPoint FaceLoads::support_point(const Face& face, const Point& point) const {
+  const double area = norm(point.normal);
+  return {point.N.data(), static_cast<int>(point.N.size()), dimension_, area, area / face.whole_area, point.X};
+}
+
+void FaceLoads::add_supports(int cell, double time, const double* u, double* r, double* K) const {
+  for (const Face& face : faces_of_cell_[cell])
+    for (const Point& point : face.points)
+      if (face.load->support.given()) add_support(face.load->support, time, support_point(face, point), u, r, K);
+}
+
+SupportState FaceLoads::support_state(const BoundaryConfig& boundary, double time,
+                                      const std::function<const double*(int cell)>& u) const {
+  SupportState state;
+  state.gap = std::numeric_limits<double>::infinity();
+  for (std::size_t cell = 0; cell < faces_of_cell_.size(); ++cell)
+    for (const Face& face : faces_of_cell_[cell])
+      for (const Point& point : face.points)
+        if (face.load == &boundary)
+          add_state(boundary.support, time, support_point(face, point), u(static_cast<int>(cell)), state);
+  return state;
 }
 
 void FaceLoads::add(int cell, double time, const double* u, double* r, double* K) const {

@@ -1,11 +1,13 @@
 /// What happens at named boundaries: prescribed displacements, dead tractions, follower pressures.
 #pragma once
 
+#include <functional>
 #include <mfem.hpp>
 #include <string>
 #include <vector>
 
 #include "base/config.hpp"
+#include "fe/supports.hpp"
 #include "mesh/mesh.hpp"
 
 namespace titin {
@@ -21,6 +23,7 @@ struct BoundaryConfig {
   std::array<double, 3> traction{};   // dead [Pa], force per reference area
   Table traction_scale{1};
   Table pressure;  // follower [Pa], pushes against the outward normal of the deformed surface
+  SupportConfig support;
   bool constrained() const { return clamp || prescribed[0] || prescribed[1] || prescribed[2]; }
   bool loaded() const;
   void bind(Section& s, const NamedMesh& mesh);
@@ -53,25 +56,35 @@ class FaceLoads {
 
   bool on_cell(int cell) const { return !faces_of_cell_[cell].empty(); }
   bool has_follower() const { return has_follower_; }
+  bool has_supports() const { return has_supports_; }
   /// Adds minus the load's nodal forces to r [components][nodes]; with K != nullptr also their derivative.
   void add(int cell, double time, const double* u, double* r, double* K) const;
+  /// The same of supports, which have a potential.
+  void add_supports(int cell, double time, const double* u, double* r, double* K) const;
+  /// What the supports of a boundary do to this rank's part of it; `u` [components][nodes] of a cell.
+  SupportState support_state(const BoundaryConfig& boundary, double time,
+                             const std::function<const double*(int cell)>& u) const;
 
  private:
   struct Point {
     std::vector<double> N, G;      // shapes [nodes], reference gradients [J][nodes]
     std::array<double, 3> normal;  // outward, times reference area [m^2]
+    std::array<double, 3> X;       // [m]
   };
   struct Face {
     const BoundaryConfig* load;
+    double whole_area;  // of the boundary, all ranks [m^2]
     std::vector<Point> points;
   };
   void add_face(mfem::FaceElementTransformations& map, const BoundaryConfig& load, const mfem::IntegrationRule& rule,
                 const mfem::FiniteElement& element, double thickness);
+  void set_area(const BoundaryConfig& load);
+  SupportPoint support_point(const Face& face, const Point& point) const;
   void add_dead(const Face& face, double time, double* r) const;
   void add_follower(const Point& point, double pressure, const double* u, double* r, double* K) const;
 
   int dimension_;
-  bool has_follower_ = false;
+  bool has_follower_ = false, has_supports_ = false;
   std::vector<std::vector<Face>> faces_of_cell_;
 };
 

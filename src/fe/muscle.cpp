@@ -25,6 +25,7 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
       system_(config_, mesh_, space_),
       integrator_(config_.integrator, space_.GetTrueVSize()),
       history_(system_),
+      watch_(system_),
       fields_(system_),
       trial_(space_.GetTrueVSize()) {
   trial_ = 0.0;
@@ -59,12 +60,17 @@ void Muscle::follow(const StepState& step) {
     recovery_->update(displacement());
     for (const Quantity& quantity : recovery_->quantities()) quantities_.push_back(quantity);
   }
+  if (config_.ellipticity) {
+    watch_.update(displacement(), step);
+    for (const Quantity& q : watch_.quantities()) quantities_.push_back(q);
+  }
   conservation_.update(quantities_);
 }
 
 void Muscle::update_fields() {
   fields_.update(displacement(), integrator_.seen_velocity());
   if (recovery_) fields_.set_stress_error(*recovery_);
+  if (config_.ellipticity) fields_.set_ellipticity(watch_.smallest());
 }
 
 Step Muscle::advance(double dt) {
@@ -106,6 +112,7 @@ std::vector<double> Muscle::kinks() const {
     for (const Table& component : boundary.displacement) take(component.kinks());
     take(boundary.traction_scale.kinks());
     take(boundary.pressure.kinks());
+    take(boundary.support.wall.travel.kinks());
   }
   for (const auto& [name, material] : config_.materials) take(material->kinks());
   return all;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "fe/conservation.hpp"
+#include "fe/ellipticity_watch.hpp"
 #include "fe/muscle_fields.hpp"
 #include "fe/muscle_history.hpp"
 #include "fe/muscle_system.hpp"
@@ -53,6 +54,7 @@ class Muscle : public Model {
   Integrator integrator_;           // the accepted state, and the numbers of the step being tried
   std::unique_ptr<Newton> newton_;  // from the first step on
   MuscleHistory history_;
+  EllipticityWatch watch_;
   Conservation conservation_;
   std::vector<Quantity> quantities_;  // of the accepted state
   MuscleFields fields_;

@@ -45,6 +45,9 @@ void bind_formulation(Section s, MuscleConfig& c, const NamedMesh& mesh) {
       "error_estimate", c.error_estimate,
       {.doc = "estimate after each step how far the stress is off because cells are not smaller: field stress_error, "
               "columns stress_error and stress_error_relative"});
+  s.read("ellipticity", c.ellipticity,
+         {.doc = "find the smallest Legendre-Hadamard value of each cell after every step, write it as a field and in "
+                 "history.csv, and warn when it becomes negative"});
   s.read("pennation_axis", c.pennation_axis, {.doc = "direction that pennation angles are measured from"});
   if (!(norm(c.pennation_axis) > 0))
     s.error("pennation_axis", "a direction of length zero", "give the line of action, e.g. [1, 0, 0]");
@@ -85,9 +88,6 @@ void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
   root.each("materials", "one material, of one or more regions", [&](const std::string& name, Section s) {
     regions.read(s, name, mesh);
     materials[name] = Material::read(s);
-    if (!materials[name]->fields().empty())
-      s.error("", "fibres and numbers that vary in space are not evaluated by this formulation yet",
-              "give a region and a material to each value");
     if (!s.describing() && !materials[name]->has_volumetric_law())
       logging::warning(
           fmt::format("{}: without a volumetric law the elements' pressure stays 0: displacements alone carry "
@@ -96,6 +96,13 @@ void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {
   });
   regions.finish(root, mesh);
   material_of_region = regions.by_attribute();
+  if (root.describing() || !mesh.mesh || !elements.problem().empty()) return;
+  std::map<int, std::shared_ptr<const Material>> of_attribute;
+  for (const auto& [region, attribute] : mesh.regions) {
+    if (!material_of_region.count(attribute)) return;
+    of_attribute[attribute] = materials.at(material_of_region.at(attribute));
+  }
+  point_fields = PointFields(*mesh.mesh, of_attribute, elements, points());
 }
 
 }  // namespace titin

@@ -10,6 +10,7 @@
 #include "fe/initial_motion.hpp"
 #include "fe/loads.hpp"
 #include "fe/observers.hpp"
+#include "fe/point_fields.hpp"
 #include "materials/material.hpp"
 #include "mesh/mesh.hpp"
 #include "solve/integrator.hpp"
@@ -28,6 +29,7 @@ struct MuscleConfig {
   FibreRate fibre_rate = FibreRate::stretch_difference;
   bool error_estimate = false;
   std::array<double, 3> pennation_axis{1, 0, 0};
+  bool ellipticity = false;
   std::array<double, 3> body_acceleration{};  // [m/s^2]
   Table body_scale{1};
   std::vector<BoundaryConfig> boundaries;
@@ -35,6 +37,7 @@ struct MuscleConfig {
   std::vector<AverageConfig> averages;
   std::map<std::string, std::shared_ptr<const Material>> materials;
   std::map<int, std::string> material_of_region;  // by mesh attribute
+  PointFields point_fields;
   InitialMotion initial;
   NewtonConfig newton;
   IntegratorConfig integrator;

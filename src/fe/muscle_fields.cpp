@@ -62,6 +62,7 @@ MuscleFields::MuscleFields(MuscleSystem& system)
   direction_ = fields_.add("fibre_direction", "", vectors_);
   stress_ = fields_.add("cauchy_stress", "Pa", tensors_);
   if (system.config().error_estimate) stress_error_ = fields_.add("stress_error", "Pa", constants_);
+  if (system.config().ellipticity) ellipticity_ = fields_.add("legendre_hadamard", "Pa", constants_);
   auto* region = fields_.add("region", "", constants_);
   for (int cell = 0; cell < constants_.GetNE(); ++cell) (*region)(cell) = constants_.GetParMesh()->GetAttribute(cell);
 }
@@ -75,6 +76,10 @@ void MuscleFields::update(const mfem::Vector& u, const mfem::Vector& v) {
 
 void MuscleFields::set_stress_error(const StressRecovery& recovery) {
   for (int cell = 0; cell < constants_.GetNE(); ++cell) (*stress_error_)(cell) = recovery.density(cell);
+}
+
+void MuscleFields::set_ellipticity(const std::vector<double>& of_cells) {
+  std::copy(of_cells.begin(), of_cells.end(), ellipticity_->begin());
 }
 
 mfem::Geometry::Type MuscleFields::geometry_of(int cell) const {
@@ -106,7 +111,7 @@ void MuscleFields::update_points(int cell, const Material& material, const Three
   material.stress(in, P.data(), nullptr);
   for (int q = 0; q < in.n; ++q) {
     const Mat3& F = kernel.F()[q];
-    const Vec3 a = multiply(F, material.fibre());
+    const Vec3 a = multiply(F, in.fibre[q]);
     const double length = material.has_fibres() ? norm(a) : 1.0;
     for (int i = 0; i < 3; ++i) direction[3 * q + i] = a[i] / length;
     const Mat3 PF = multiply(P[q], transpose(F));  // Cauchy stress: P F^T / J + p I

@@ -21,6 +21,7 @@ class MuscleFields {
   /// The step that the system holds gives the rates. Collective.
   void update(const mfem::Vector& u, const mfem::Vector& v);
   void set_stress_error(const StressRecovery& recovery);
+  void set_ellipticity(const std::vector<double>& of_cells);
   const std::vector<Field>& fields() const { return fields_.fields(); }
 
  private:
@@ -38,7 +39,7 @@ class MuscleFields {
   std::array<mfem::DenseMatrix, mfem::Geometry::NumGeom> evaluation_;  // drawn nodes x nodes
   FieldList fields_;
   mfem::ParGridFunction *displacement_, *velocity_, *pressure_, *dilatation_, *stretch_, *rate_, *activation_,
-      *direction_, *stress_, *stress_error_ = nullptr;
+      *direction_, *stress_, *stress_error_ = nullptr, *ellipticity_ = nullptr;
 };
 
 }  // namespace titin

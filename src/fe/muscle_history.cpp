@@ -25,7 +25,8 @@ MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system) {
     std::vector<int> accounts;
     for (const TermInfo& term : material->terms()) {
       accounts.push_back(static_cast<int>(terms_.size()));
-      terms_.push_back({one ? term.name : name + "_" + term.name, term.stores_energy, term.dissipates});
+      terms_.push_back({one ? term.name : name + "_" + term.name, term.stores_energy, term.dissipates,
+                        term.stores_energy && term.has_curves});
     }
     for (const auto& [attribute, region_material] : config.material_of_region)
       if (region_material == name) terms_of_region_[attribute] = accounts;
@@ -120,6 +121,7 @@ void MuscleHistory::add_terms(int cell, const Material& material, const ThreeFie
     else
       material.term_stress(term, in, P.data());
     if (account.dissipates) material.term_dissipation(term, in.n, in.new_history, D.data());
+    if (account.has_curves) account.from_curves += energy_of_curves(cell, term, material, kernel, in);
     for (int q = 0; q < in.n; ++q) {
       const double w = system_.tables().weight(cell, q);
       if (account.stored) account.value += w * W[q];
@@ -127,6 +129,27 @@ void MuscleHistory::add_terms(int cell, const Material& material, const ThreeFie
       if (!account.stored) account.value += w * work(P[q], kernel.F()[q], kernel.F_old()[q]);
     }
   }
+}
+
+/// What the change of a term's numbers in this step adds to its energy, at the deformations of both ends as the step
+/// weighs them.
+double MuscleHistory::energy_of_curves(int cell, int term, const Material& material, const ThreeField& kernel,
+                                       PointInput in) const {
+  if (!(in.dt > 0)) return 0;
+  const auto change_at = [&](const std::vector<Mat3>& F) {
+    std::vector<double> before(in.n), after(in.n);
+    PointInput at = in;
+    at.F = F.data();
+    material.term_energy(term, at, after.data());
+    at.time -= at.dt;
+    material.term_energy(term, at, before.data());
+    double energy = 0;
+    for (int q = 0; q < in.n; ++q) energy += system_.tables().weight(cell, q) * (after[q] - before[q]);
+    return energy;
+  };
+  const double weight = system_.step().conserving ? 1 : end_weight_;  // its stress has the numbers of the end only
+  const double at_start = weight * change_at(kernel.F_old());
+  return weight == 1 ? at_start : at_start + (1 - weight) * change_at(kernel.F());
 }
 
 /// Of a stress at a point during the step [J/m^3]. Points come in the same order at every step.
@@ -146,7 +169,7 @@ void MuscleHistory::add_means(int cell, const Material& material, const ThreeFie
   const Vec3 axis = system_.config().pennation_axis;
   for (int q = 0; q < in.n; ++q) {
     const double w = system_.tables().weight(cell, q) * kernel.J()[q];
-    const Vec3 a = multiply(kernel.F()[q], material.fibre());
+    const Vec3 a = multiply(kernel.F()[q], in.fibre[q]);
     const double cosine = std::clamp(dot(a, axis) / (norm(a) * norm(axis)), -1.0, 1.0);
     for (int m : cell_means_[cell]) {
       means_[m].volume += w;
@@ -159,6 +182,7 @@ void MuscleHistory::add_means(int cell, const Material& material, const ThreeFie
 
 void MuscleHistory::add_boundary_work(const mfem::Vector& u, const StepState& step) {
   mfem::Vector boundary = system_.load_forces();
+  boundary += system_.support_forces();
   for (int dof : system_.constraints().dofs()) boundary(dof) += forces_(dof);
   const double weight = step.conserving ? 1 : end_weight_;  // forces of the middle are those of the whole step
   if (step.dt > 0)
@@ -178,6 +202,19 @@ Quantity MuscleHistory::reaction(int boundary, int component) const {
           sum(force)};
 }
 
+/// Returns the energy that the boundary's spring and wall hold.
+double MuscleHistory::add_support_quantities(const BoundaryConfig& boundary, std::vector<Quantity>& list) const {
+  const std::vector<double> u_cells = system_.cell_values(u_);
+  const SupportState state = system_.loads().support_state(
+      boundary, system_.step().time, [&](int cell) { return &u_cells[system_.first_value(cell)]; });
+  for (int i = 0; i < system_.tables().dimension(); ++i)
+    list.push_back({fmt::format("support_{}_{}", boundary.name, component_name[i]), "N", sum(state.force[i])});
+  if (boundary.support.wall.given) list.push_back({"gap_" + boundary.name, "m", min(state.gap)});
+  const double energy = sum(state.energy);
+  list.push_back({"energy_support_" + boundary.name, "J", energy});
+  return energy;
+}
+
 std::vector<Quantity> MuscleHistory::quantities() const {
   std::vector<Quantity> list;
   const auto& boundaries = system_.config().boundaries;
@@ -192,12 +229,21 @@ std::vector<Quantity> MuscleHistory::quantities() const {
     const double value = sum(term.value);
     (term.stored ? stored : done) += value;
     list.push_back({(term.stored ? "energy_" : "work_") + term.name, "J", value});
+    if (term.has_curves) {
+      const double brought = sum(term.from_curves);
+      done -= brought;
+      list.push_back({"work_parameters_" + term.name, "J", brought});
+    }
     if (!term.dissipates) continue;
     const double dissipated = sum(term.dissipated);
     done += dissipated;
     list.push_back({"dissipation_" + term.name, "J", dissipated});
   }
-  const double boundary = sum(work_boundary_), body = sum(work_body_);
+  double held = 0;
+  for (const BoundaryConfig& b : boundaries)
+    if (b.support.given()) held += add_support_quantities(b, list);
+  stored += held;
+  const double boundary = sum(work_boundary_) + held, body = sum(work_body_);  // supports are part of the system
   list.push_back({"work_boundary", "J", boundary});
   list.push_back({"work_body", "J", body});
   list.push_back(

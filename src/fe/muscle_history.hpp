@@ -34,7 +34,8 @@ class MuscleHistory {
   struct TermAccount {
     std::string name;
     bool stored, dissipates;
-    double value = 0, dissipated = 0;
+    bool has_curves = false;  ///< stores energy that a change of its parameters brings
+    double value = 0, dissipated = 0, from_curves = 0;
   };
   struct Mean {
     std::string name;
@@ -43,11 +44,13 @@ class MuscleHistory {
   };
   void add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in, const double* v);
   void add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
+  double energy_of_curves(int cell, int term, const Material& material, const ThreeField& kernel, PointInput in) const;
   void add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
   void add_boundary_work(const mfem::Vector& u, const StepState& step);
   double work(const Mat3& P, const Mat3& F, const Mat3& F_old);
   void take_means();
   void take_markers();
+  double add_support_quantities(const BoundaryConfig& boundary, std::vector<Quantity>& list) const;
   Quantity reaction(int boundary, int component) const;
 
   MuscleSystem& system_;

@@ -9,13 +9,6 @@
 
 namespace titin {
 
-namespace {
-
-/// Forces below this part of (largest stiffness x size of the body) are round-off: displacements carry 16 digits.
-constexpr double round_off = 1e-15;
-
-}  // namespace
-
 MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mfem::ParFiniteElementSpace& space)
     : config_(config),
       space_(space),
@@ -31,6 +24,7 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
       forces_(space.GetTrueVSize()),
       body_forces_(space.GetTrueVSize()),
       load_forces_(space.GetTrueVSize()),
+      support_forces_(space.GetTrueVSize()),
       static_forces_(space.GetTrueVSize()),
       inertial_forces_(space.GetTrueVSize()) {
   mfem::Array<int> dofs;
@@ -43,8 +37,8 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
   if (config.integrator.scheme != Scheme::energy_momentum)
     matrices_ = CellMatrices::create(space_, tables_, symmetric_materials());
   start_history();
-  for (mfem::Vector* v : {&step_.u_old, &step_.known_inertia, &forces_, &body_forces_, &load_forces_, &static_forces_,
-                          &inertial_forces_}) {
+  for (mfem::Vector* v : {&step_.u_old, &step_.known_inertia, &forces_, &body_forces_, &load_forces_, &support_forces_,
+                          &static_forces_, &inertial_forces_}) {
     v->SetSize(space.GetTrueVSize());
     *v = 0.0;
   }
@@ -84,75 +78,11 @@ void MuscleSystem::accept_forces() {
   inertial_forces_old_ = inertial_forces_;
 }
 
-Assembly& MuscleSystem::assembly() {
-  if (assembly_) return *assembly_;
-  assembly_ = std::make_unique<Assembly>(space_, constrained_dofs());
-  const bool conserves = config_.integrator.scheme == Scheme::energy_momentum;
-  check(MatSetOption(assembly_->matrix(), MAT_SYMMETRIC,
-                     symmetric_materials() && !loads_.has_follower() && !conserves ? PETSC_TRUE : PETSC_FALSE));
-  check(MatSetOption(assembly_->matrix(), MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
-  return *assembly_;
-}
-
-std::vector<char> MuscleSystem::constrained_dofs() const {
-  std::vector<char> constrained(space_.GetVSize());
-  for (int dof = 0; dof < space_.GetVSize(); ++dof) constrained[dof] = constraints_.is_constrained_local(dof);
-  return constrained;
-}
-
-std::unique_ptr<TangentAction> MuscleSystem::make_action(Precision precision) const {
-  return TangentAction::create(space_, tables_, constrained_dofs(), symmetric_materials(), precision);
-}
-
-void MuscleSystem::set_action(const mfem::Vector& u, TangentAction& action) {
-  Timers::Scope timer("tangent");
-  const LocalVectors local(*this, u);
-  action.set([&](int cell) { return tangent_points(cell, local); });
-}
-
-TangentPoints MuscleSystem::tangent_points(int cell, const LocalVectors& local) {
-  deform(cell, local);
-  return kernel_.tangent_points(cell, material(cell), point_input(cell), inertia(cell));
-}
-
-/// Calls take(cell, K) with each cell's tangent, loads left out.
-void MuscleSystem::form_cells(const LocalVectors& local, const std::function<void(int, double*)>& take) {
-  if (!matrices_) return form_cells_singly(local, take);
-  const int cells = space_.GetNE();
-  for (int first = 0; first < cells; first += matrices_->cells_at_once()) {
-    const int count = std::min(matrices_->cells_at_once(), cells - first);
-    matrices_->form(first, count, [&](int cell) { return tangent_points(cell, local); });
-    for (int i = 0; i < count; ++i) take(first + i, matrices_->matrix(i));
-  }
-}
-
-void MuscleSystem::form_cells_singly(const LocalVectors& local, const std::function<void(int, double*)>& take) {
-  std::vector<double> K;
-  for (int cell = 0; cell < space_.GetNE(); ++cell) {
-    K.assign(std::size_t(tables_.values(cell)) * tables_.values(cell), 0.0);
-    deform(cell, local);
-    add_internal_tangent(cell, K.data());
-    if (moving()) add_inertia_tangent(cell, K.data());
-    take(cell, K.data());
-  }
-}
-
 bool MuscleSystem::symmetric_materials() const {
   bool all = true;
   for (const auto& [name, material] : config_.materials)
     all = all && material->symmetric_tangent(config_.varying_rate());
   return all;
-}
-
-bool MuscleSystem::has_cell_blocks() const {
-  const bool mine = space_.GetNE() > 0 && tables_.geometry() == mfem::Geometry::CUBE && tables_.modes(0) > 0 &&
-                    config_.integrator.scheme != Scheme::energy_momentum;
-  return !any_of(!mine);
-}
-
-const CellBlocks& MuscleSystem::cell_blocks(double gamma) {
-  if (!cells_) cells_ = std::make_unique<TangentCells>(space_, tables_, constraints_, gamma);
-  return cells_->blocks();
 }
 
 void MuscleSystem::start_history() {
@@ -166,10 +96,15 @@ void MuscleSystem::start_history() {
   rest.n = 1;
   rest.F = rest.F_old = &identity;
   for (int cell = 0; cell < space_.GetNE(); ++cell) {
-    const Vec3 fibre = material(cell).fibre();
-    rest.fibre = &fibre;
-    for (int q = 0; q < tables_.points(cell); ++q)
+    const Vec3 fibre = material(cell).fibre(), second_fibre = material(cell).second_fibre();
+    PointInput at_points = rest;
+    config_.point_fields.set(cell, at_points);
+    for (int q = 0; q < tables_.points(cell); ++q) {
+      rest.fibre = at_points.fibre ? at_points.fibre + q : &fibre;
+      rest.second_fibre = at_points.second_fibre ? at_points.second_fibre + q : &second_fibre;
+      rest.fields = at_points.fields ? at_points.fields + q * material(cell).fields().numbers.size() : nullptr;
       material(cell).start_history(rest, history_.now(cell) + q * row_size[cell]);
+    }
   }
   history_.commit();
 }
@@ -214,6 +149,7 @@ PointInput MuscleSystem::point_input(int cell) const {
   in.rate = step_.dt > 0 ? config_.rate() : FibreRate::none;
   in.history = history_.old(cell);
   in.new_history = history_.now(cell);
+  config_.point_fields.set(cell, in);
   return in;
 }
 
@@ -225,10 +161,11 @@ mfem::Vector MuscleSystem::to_true(const mfem::Vector& local) const {
 
 /// Local-dof vectors of a residual, kept apart for the accounts of work.
 struct MuscleSystem::LocalForces {
-  explicit LocalForces(int size) : internal(size), inertia(size), body(size), load(size), absolute(size) {
-    for (auto* v : {&internal, &inertia, &body, &load, &absolute}) *v = 0.0;
+  explicit LocalForces(int size)
+      : internal(size), inertia(size), body(size), load(size), support(size), absolute(size) {
+    for (auto* v : {&internal, &inertia, &body, &load, &support, &absolute}) *v = 0.0;
   }
-  mfem::Vector internal, inertia, body, load, absolute;
+  mfem::Vector internal, inertia, body, load, support, absolute;
 };
 
 bool MuscleSystem::residual(const mfem::Vector& u, mfem::Vector& R) {
@@ -249,10 +186,12 @@ bool MuscleSystem::residual(const mfem::Vector& u, mfem::Vector& R) {
   }
   body_forces_ = to_true(local_forces.body);
   load_forces_ = to_true(local_forces.load);
+  support_forces_ = to_true(local_forces.support);
   inertial_forces_ = to_true(local_forces.inertia);
   static_forces_ = to_true(local_forces.internal);
   static_forces_ -= body_forces_;
   static_forces_ -= load_forces_;
+  static_forces_ -= support_forces_;
   const mfem::Vector total = to_true(local_forces.absolute);
   force_scale_ = std::max(std::sqrt(sum(total * total)), force_floor_ / config_.newton.tolerance);
   balance(R);
@@ -292,23 +231,6 @@ bool MuscleSystem::add_internal_forces(int cell, double* r) {
   return true;
 }
 
-void MuscleSystem::add_internal_tangent(int cell, double* K) {
-  const PointInput in = point_input(cell);
-  if (!step_.conserving) return kernel_.add_tangent(cell, material(cell), in, K);
-  conserving_.deform(cell, material(cell), kernel_, kernel_.points(in), true);
-  conserving_.add_tangent(cell, kernel_, K);
-}
-
-void MuscleSystem::add_load_tangent(int cell, const LocalVectors& local, double* K) {
-  const int n = tables_.values(cell);
-  gather(cell, local.u, u_cell_.data());
-  gather(cell, local.u_old, u_old_cell_.data());
-  std::vector<double> unused(n), slope(n * n);
-  loads_.add(cell, load_time(), load_position(), unused.data(), slope.data());
-  const double part = step_.conserving ? 0.5 : 1;  // how far the load's place moves with the end of the step
-  for (int c = 0; c < n * n; ++c) K[c] += part * slope[c];
-}
-
 bool MuscleSystem::has_potential() const {
   if (step_.conserving || loads_.has_follower()) return false;
   for (const auto& [name, material] : config_.materials)
@@ -330,6 +252,9 @@ double MuscleSystem::potential(const mfem::Vector& u) {
     for (int q = 0; q < tables_.points(cell); ++q)
       energy += tables_.weight(cell, q) * (W[q] + material.volumetric(kernel.dilatation()[q]).U);
   });
+  const std::vector<double> u_cells = cell_values(u);
+  for (const BoundaryConfig& boundary : config_.boundaries)
+    energy += loads_.support_state(boundary, step_.time, [&](int cell) { return &u_cells[first_value(cell)]; }).energy;
   for (int i = 0; i < size(); ++i) {
     energy -= (load_forces_(i) + body_forces_(i)) * u(i);
     if (w != 1) energy += (1 - w) / w * static_forces_old_(i) * u(i);
@@ -344,9 +269,12 @@ bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mf
                                    LocalForces& forces) {
   if (!deform(cell, local)) return false;
   const int n = tables_.values(cell);
-  std::vector<double> internal(n), inertia(n), body(n), load(n);
+  std::vector<double> internal(n), inertia(n), body(n), load(n), support(n);
   if (!add_internal_forces(cell, internal.data())) return false;
-  if (loads_.on_cell(cell)) loads_.add(cell, load_time(), load_position(), load.data(), nullptr);
+  if (loads_.on_cell(cell)) {
+    loads_.add(cell, load_time(), load_position(), load.data(), nullptr);
+    loads_.add_supports(cell, load_time(), load_position(), support.data(), nullptr);
+  }
   add_inertia_and_body(cell, acceleration, inertia.data(), body.data());
   for (int c = 0; c < n; ++c) {
     const int dof = dofs(cell)[c];
@@ -354,7 +282,9 @@ bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mf
     forces.inertia(dof) += inertia[c];
     forces.body(dof) += body[c];
     forces.load(dof) -= load[c];  // loads come as residuals, minus a force
-    forces.absolute(dof) += std::abs(internal[c]) + std::abs(inertia[c]) + std::abs(body[c]) + std::abs(load[c]);
+    forces.support(dof) -= support[c];
+    forces.absolute(dof) +=
+        std::abs(internal[c]) + std::abs(inertia[c]) + std::abs(body[c]) + std::abs(load[c]) + std::abs(support[c]);
   }
   return true;
 }
@@ -378,62 +308,6 @@ void MuscleSystem::add_inertia_and_body(int cell, const mfem::Vector& accelerati
         body[i * nodes + b] += pull * N[b];
       }
     }
-  }
-}
-
-void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfem::Vector* R) {
-  Timers::Scope timer("tangent");
-  const LocalVectors local(*this, u);
-  mfem::Vector local_lift, local_R;
-  if (lift) {
-    local_lift.SetSize(space_.GetVSize());
-    local_R.SetSize(space_.GetVSize());
-    space_.GetProlongationMatrix()->Mult(*lift, local_lift);
-    local_R = 0.0;
-  }
-  double stiffest = 0;
-  assembly().begin();
-  form_cells(local, [&](int cell, double* K) {
-    const int n = tables_.values(cell);
-    for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(K[c * n + c]));
-    if (loads_.on_cell(cell)) add_load_tangent(cell, local, K);
-    if (cells_) {
-      deform(cell, local);
-      cells_->set(cell, kernel_, material(cell), K, inertia(cell));
-    }
-    if (lift) add_lift(cell, K, &local_lift, &local_R);
-    assembly_->add(cell, K);
-  });
-  if (lift) {
-    mfem::Vector change = to_true(local_R);
-    for (int dof : constraints_.dofs()) change(dof) = 0;
-    *R += change;
-  }
-  mfem::Vector lower, upper;
-  space_.GetParMesh()->GetBoundingBox(lower, upper);
-  upper -= lower;
-  force_floor_ = round_off * titin::max(stiffest) * upper.Normlinf() * std::sqrt(double(space_.GlobalTrueVSize()));
-  assembly_->end();
-}
-
-/// The derivative of the inertia in the residual.
-void MuscleSystem::add_inertia_tangent(int cell, double* K) const {
-  const int nodes = tables_.nodes(cell), n = tables_.values(cell);
-  std::vector<double> mass(nodes * nodes);
-  kernel_.add_mass(cell, inertia(cell), mass.data());
-  for (int i = 0; i < tables_.dimension(); ++i)
-    for (int a = 0; a < nodes; ++a)
-      for (int b = 0; b < nodes; ++b) K[(i * nodes + a) * n + i * nodes + b] += mass[a * nodes + b];
-}
-
-/// What a change of the cell's constrained values does to its forces.
-void MuscleSystem::add_lift(int cell, const double* K, const mfem::Vector* local_lift, mfem::Vector* local_R) const {
-  const int n = tables_.values(cell);
-  for (int d = 0; d < n; ++d) {
-    const int dof = dofs(cell)[d];
-    const double lift = constraints_.is_constrained_local(dof) ? (*local_lift)(dof) : 0.0;
-    if (lift == 0) continue;
-    for (int c = 0; c < n; ++c) (*local_R)(dofs(cell)[c]) += K[c * n + d] * lift;
   }
 }
 

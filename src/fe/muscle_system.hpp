@@ -82,6 +82,7 @@ class MuscleSystem : public NonlinearSystem {
   void accept_forces();
   const mfem::Vector& body_forces() const { return body_forces_; }  ///< of the last residual() [N]
   const mfem::Vector& load_forces() const { return load_forces_; }  ///< of surface loads, the same
+  const mfem::Vector& support_forces() const { return support_forces_; }
 
   /// Calls visit(cell, material, kernel) for each cell of this rank after deform() to u in the system's step.
   template <class Visit>
@@ -99,6 +100,7 @@ class MuscleSystem : public NonlinearSystem {
   /// Time, step and history of a cell's points; deform() fills in the rest.
   PointInput point_input(int cell) const;
   History& history() { return history_; }
+  const FaceLoads& loads() const { return loads_; }
   const CellTables& tables() const { return tables_; }
   mfem::ParFiniteElementSpace& space() { return space_; }
   const MuscleConfig& config() const { return config_; }
@@ -153,7 +155,7 @@ class MuscleSystem : public NonlinearSystem {
   std::unique_ptr<Assembly> assembly_;      // large: not there before the first step, so that checking a scene is cheap
   std::unique_ptr<TangentCells> cells_;     // once a linear solver asks for them
   std::vector<double> u_cell_, u_old_cell_, rate_old_cell_, middle_cell_;
-  mfem::Vector forces_, body_forces_, load_forces_;
+  mfem::Vector forces_, body_forces_, load_forces_, support_forces_;
   // Internal less body and surface forces, and density times the acceleration in the balance: now and at the
   // beginning of the step.
   mfem::Vector static_forces_, inertial_forces_, static_forces_old_, inertial_forces_old_;

@@ -70,6 +70,7 @@ ThreeField::ThreeField(const CellTables& tables)
       P_(F_.size()),
       A_(F_.size()),
       fibre_(F_.size()),
+      second_fibre_(F_.size()),
       J_(F_.size()),
       D_(F_.size()),
       p_(F_.size()),
@@ -99,6 +100,7 @@ bool ThreeField::deform(int cell, const Material& material, const double* u, con
   }
   project(cell, dU_, p_);
   std::fill(fibre_.begin(), fibre_.end(), material.fibre());
+  std::fill(second_fibre_.begin(), second_fibre_.end(), material.second_fibre());
   return bad_point_ < 0;
 }
 
@@ -133,7 +135,8 @@ PointInput ThreeField::points(PointInput in) const {
   in.n = points_;
   in.F = F_.data();
   in.F_old = F_old_.data();
-  in.fibre = fibre_.data();
+  if (!in.fibre) in.fibre = fibre_.data();
+  if (!in.second_fibre) in.second_fibre = second_fibre_.data();
   if (F_rate_old_.empty()) return in;
   in.F_rate_old = F_rate_old_.data();
   in.F_rate = rate_known_ ? F_old_.data() : nullptr;

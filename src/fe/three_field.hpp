@@ -45,7 +45,8 @@ class ThreeField {
   /// Adds density * N_a N_b dV, one component: [nodes][nodes].
   void add_mass(int cell, double density, double* M) const;
 
-  /// The points as a batch for a material; current after deform. The vectors below hold in.n of them, or more.
+  /// The points as a batch for a material, with its directions where `in` has none; current after deform. The vectors
+  /// below hold in.n of them, or more.
   PointInput points(PointInput in) const;
   const std::vector<Mat3>& F() const { return F_; }
   const std::vector<Mat3>& F_old() const { return F_old_; }
@@ -73,8 +74,8 @@ class ThreeField {
   std::vector<Mat3> F_rate_old_;  // empty where the rate is this step's
   double rate_dt_ = 0;            // [s]
   bool rate_known_ = false;
-  std::vector<Mat9> A_;  // w (A_iso + p d cof F / dF)
-  std::vector<Vec3> fibre_;
+  std::vector<Mat9> A_;                     // w (A_iso + p d cof F / dF)
+  std::vector<Vec3> fibre_, second_fibre_;  // of the material; cells may have their own
   std::vector<double> J_, D_, p_, dU_;
   std::vector<double> factor_, S_;  // p / J; [modes][modes]
 };

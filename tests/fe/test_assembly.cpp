@@ -182,7 +182,12 @@ INSTANTIATE_TEST_SUITE_P(Kernels, Action,
                                          ActionCase{"order_2", {"mesh.cells=[3, 2, 3]"}},
                                          ActionCase{"order_2_with_5_points", {"muscle.quadrature=5"}},
                                          ActionCase{"order_3", {"mesh.cells=[2, 2, 1]", "muscle.order=3"}},
-                                         ActionCase{"dynamic", {"muscle.inertia=dynamic"}}),
+                                         ActionCase{"dynamic", {"muscle.inertia=dynamic"}},
+                                         ActionCase{
+                                             "fields",
+                                             {"materials.muscle.terms.active.activation=1",
+                                              "materials.muscle.terms.active.peak_stress={field=\"" TITIN_TEST_DATA
+                                              "/fields/muscle.csv\",column=\"peak_stress\"}"}}),
                          [](const auto& info) { return info.param.name; });
 
 TEST(ActionKernels, AreNotThereForEveryQuadrature) {

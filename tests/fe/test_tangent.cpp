@@ -90,6 +90,21 @@ struct Derivative {
 
 const std::string ends = "[boundary.\"x-\"]\nclamp = true\n";
 
+/// Directions and numbers of each point, in the kernels over several cells too.
+const std::string fields = "[muscle]\ninertia = \"quasi-static\"\n" + ends + R"(
+[materials.muscle]
+density = "1060 kg/m^3"
+volumetric = { law = "simo", bulk_modulus = "10 MPa" }
+)" + "fibre = { field = \"" TITIN_TEST_DATA "/fields/muscle.csv\", columns = [\"ax\", \"ay\", \"az\"] }\n" +
+                           R"(
+[materials.muscle.terms]
+base = { law = "yeoh", c1 = "40 kPa", c2 = "73 kPa" }
+[materials.muscle.terms.active]
+law = "hill_active"
+max_strain_rate = "5 1/s"
+activation = 1
+)" + "peak_stress = { field = \"" TITIN_TEST_DATA "/fields/muscle.csv\", column = \"peak_stress\" }\n";
+
 struct Case {
   const char* name;
   std::string text;
@@ -133,7 +148,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"conserving", "[time]\nscheme = \"energy_momentum\"\n" + soft_material + ends, false},
                     Case{"conserving_muscle", "[time]\nscheme = \"energy_momentum\"\n" + muscle_material + ends, false},
                     Case{"order_1", "[muscle]\norder = 1\n" + muscle_material + ends, true},
-                    Case{"order_3", "[muscle]\norder = 3\n" + soft_material + ends, true},
+                    Case{"order_3", "[muscle]\norder = 3\n" + soft_material + ends, true}, Case{"fields", fields, true},
+                    Case{"spring_and_wall",
+                         soft_material + ends +
+                             "[boundary.\"x+\"]\nspring = \"1, 2, 3 N/mm\"\n[boundary.\"z-\"]\nwall = { point = \"0, "
+                             "0, 5 mm\", normal = [0, 1, 2], penalty = \"1 GPa/m\" }\n",
+                         true},
                     Case{"pressure", soft_material + ends + "[boundary.\"x+\"]\npressure = \"20 kPa\"\n", false},
                     Case{"traction", soft_material + ends + "[boundary.\"z+\"]\ntraction = \"1, 2, -3 kPa\"\n", true}),
     [](const auto& info) { return info.param.name; });
