@@ -205,17 +205,22 @@ Vector<D> Boundary<D>::meet_obstacles(const NodeRules& rules, Directions<D>& giv
     const auto& obstacle = conditions_[c].obstacle;
     const double gap = dot(obstacle.normal, difference(x, obstacle.point));
     if (dt_ == 0 || gap + dt_ * dot(obstacle.normal, v) >= 0) continue;
-    Directions<D> met = given;
-    met.add(obstacle.normal, -gap / dt_, c);
-    for (int i = 0; i < D && obstacle.contact == Contact::stick; ++i) {
-      Vector<D> axis{};
-      axis[i] = 1;
-      met.add(axis, -gap / dt_ * obstacle.normal[i], c);
-    }
-    const Vector<D> stopped = met.solve(M, b);
-    if (dot(obstacle.normal, difference(product<D>(M, stopped), b)) < 0) continue;  // it would be pulled
-    given = met;
-    v = stopped;
+    const auto stop = [&](Contact contact) {  // false: the obstacle would have to pull
+      Directions<D> met = given;
+      met.add(obstacle.normal, -gap / dt_, c);
+      for (int i = 0; i < D && contact == Contact::stick; ++i) {
+        Vector<D> axis{};
+        axis[i] = 1;
+        met.add(axis, -gap / dt_ * obstacle.normal[i], c);
+      }
+      const Vector<D> stopped = met.solve(M, b);
+      if (dot(obstacle.normal, difference(product<D>(M, stopped), b)) < 0) return false;
+      given = met;
+      v = stopped;
+      return true;
+    };
+    // To hold a node along the surface may take a pull away from it, to stop it at the surface never does: it slips.
+    if (!stop(obstacle.contact) && obstacle.contact == Contact::stick) stop(Contact::slip);
   }
   return v;
 }

@@ -91,6 +91,12 @@ FlowPoint Kidder::at(const Vec3& x, double t) const {
   return point;
 }
 
+double Kidder::pressure_on_boundary(const Vec3& x, double t) const {
+  const double h = shrinkage(t), middle = 0.5 * (shell_.inner_radius + shell_.outer_radius);
+  const double radius = norm(x) / h < middle ? shell_.inner_radius : shell_.outer_radius;
+  return at({radius * h, 0, 0}, t).pressure;
+}
+
 Riemann::Riemann(const Side& left, const Side& right, double position, double gamma)
     : left_(left), right_(right), position_(position), gamma_(gamma) {
   p_ = 0.5 * (left.pressure + right.pressure);

@@ -24,6 +24,8 @@ class ExactFlow {
  public:
   virtual ~ExactFlow() = default;
   virtual FlowPoint at(const Vec3& x, double t) const = 0;
+  /// [Pa] outside of the body at a face around x, which need not lie quite where the exact boundary does.
+  virtual double pressure_on_boundary(const Vec3& x, double t) const { return at(x, t).pressure; }
   /// Reads [exact]; null when the scene names no solution.
   static std::shared_ptr<const ExactFlow> read(Section section, int dimension);
 };
@@ -38,6 +40,8 @@ class Kidder final : public ExactFlow {
   };
   Kidder(const Shell& shell, int dimension);
   FlowPoint at(const Vec3& x, double t) const override;
+  /// Of the nearer of its two surfaces.
+  double pressure_on_boundary(const Vec3& x, double t) const override;
   double focusing_time() const { return tau_; }                                      ///< [s]
   double shrinkage(double t) const { return std::sqrt(1 - t * t / (tau_ * tau_)); }  ///< h
 

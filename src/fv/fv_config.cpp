@@ -24,10 +24,19 @@ void FvConfig::bind(Section& s) {
       {.range = {.min = 0, .max = 1, .open_min = true}, .doc = "part of the acoustic step that the first one takes"});
   s.read("impedance", impedance,
          {.range = {.min = 0.5, .max = 4}, .doc = "factor of density times wave speed in the nodal solver"});
-  s.read(
-      "principle_tolerance", principle_tolerance,
-      {.range = non_negative,
-       .doc = "how far density and mean stress may leave the range of their neighbours, relative to rho and rho c^2"});
+  s.read("shock_impedance", shock_impedance,
+         {.range = {.min = 0, .max = 4},
+          .doc = "s of the shock speed c + s |dv| that stands for the wave speed where the velocity jumps by dv at a "
+                 "node: without it cold cells do not resist a strong shock; (gamma + 1) / 2 of a perfect gas"});
+  s.read("principle_tolerance", principle_tolerance,
+         {.range = non_negative,
+          .doc = "how far density, mean stress and velocity of fluids, density of solids may leave the range of their "
+                 "neighbours where the flow is not smooth, relative to rho, rho c^2, c"});
+  s.read("smooth_jump", smooth_jump,
+         {.range = non_negative,
+          .doc = "a flow is smooth in a cell whose nodes differ from its linear velocity by less than this part of "
+                 "their differences from its mean"});
+  s.read("small_jump", small_jump, {.range = non_negative, .doc = "or by less than this part of the wave speed"});
   s.read("range_tolerance", range_tolerance,
          {.range = non_negative, .doc = "the same, relative to that range; the larger of both holds"});
 }

@@ -51,7 +51,7 @@ std::vector<BoundaryCondition<D>> Lagrange<D>::conditions() const {
     if (norm(from.traction) > 0) to.traction_scale = &from.traction_scale;
     const auto exact = config_.exact;
     if (from.exact == ExactBoundary::pressure)
-      to.pressure_at = [exact](const Vector<D>& x, double t) { return exact->at(spatial<D>(x), t).pressure; };
+      to.pressure_at = [exact](const Vector<D>& x, double t) { return exact->pressure_on_boundary(spatial<D>(x), t); };
     if (from.exact == ExactBoundary::velocity)
       to.velocity_at = [exact](const Vector<D>& x, double t) { return first<D>(exact->at(spatial<D>(x), t).velocity); };
     to.has_obstacle = from.has_obstacle;

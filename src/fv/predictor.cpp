@@ -71,16 +71,11 @@ void take_stresses(const Closure& closure, double time, PredictedBlock<D>& block
 
 template <int D>
 void hancock(const Closure& closure, double t, double dt, PredictedBlock<D>& block) {
-  constexpr Matrix<D> as_is = [] {
-    Matrix<D> I{};
-    for (int i = 0; i < D; ++i) I[(D + 1) * i] = 1;
-    return I;
-  }();
   for (int b = 0; b < block.n; ++b) {
     const Matrix<D> G = velocity_gradient<D>(block.g[b]);
     const double rho = block.density[b];
     block.energy[b] += 0.5 * dt / rho * power<D>(block.q[b], G);
-    const Vector<D> acceleration = divergence<D>(block.g[b], as_is);
+    const Vector<D> acceleration = divergence_of_stress<D>(block.g[b]);
     for (int i = 0; i < D; ++i) block.q[b][i] += 0.5 * dt / rho * acceleration[i];
     double trace = 0;
     for (int i = 0; i < D; ++i) trace += G[(D + 1) * i];

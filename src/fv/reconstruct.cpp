@@ -29,7 +29,9 @@ template <int D>
 void Reconstruction<D>::gather(const FlowState<D>& state) {
   for (int p = 0; p < mesh_.nodes(); ++p) {
     Moments m;
-    JudgedExtremes range{{nothing, nothing}, {nothing, nothing}};
+    JudgedExtremes range;
+    range.high.fill(nothing);
+    range.minus_low.fill(nothing);
     for (int k = mesh_.first_corner[p]; k < mesh_.first_corner[p + 1]; ++k) {
       const CellRecord<D>& c = state.cell[mesh_.corners[k] / (D + 1)];
       const Vector<D> r = difference(c.centre, state.x[p]);
@@ -39,17 +41,17 @@ void Reconstruction<D>::gather(const FlowState<D>& state) {
       add_square<D>(m.wrr, w, r);
       accumulate(m.wq, w, c.q);
       for (int i = 0; i < D; ++i) accumulate(m.wrq[i], w * r[i], c.q);
-      const double judged[] = {c.density, mean_stress<D>(c.q)};
-      for (int k = 0; k < 2; ++k) {
-        range.high[k] = std::max(range.high[k], judged[k]);
-        range.minus_low[k] = std::max(range.minus_low[k], -judged[k]);
+      const auto values = judged(c);
+      for (int k = 0; k < judged_count; ++k) {
+        range.high[k] = std::max(range.high[k], values[k]);
+        range.minus_low[k] = std::max(range.minus_low[k], -values[k]);
       }
     }
     moments_[p] = m;
     judged_[p] = range;
   }
   exchange_.sum(&moments_[0].w, sizeof(Moments) / sizeof(double));
-  exchange_.max(&judged_[0].high[0], 4);
+  exchange_.max(&judged_[0].high[0], 2 * judged_count);
 }
 
 template <int D>
@@ -121,11 +123,12 @@ void Reconstruction<D>::limit(int cell, const FlowState<D>& state, Slopes<D>& g)
 }
 
 template <int D>
-std::array<typename Reconstruction<D>::Range, 2> Reconstruction<D>::ranges(int cell) const {
-  std::array<Range, 2> range;
+std::array<typename Reconstruction<D>::Range, Reconstruction<D>::judged_count> Reconstruction<D>::ranges(
+    int cell) const {
+  std::array<Range, judged_count> range;
   range.fill({std::numeric_limits<double>::infinity(), nothing});
   for (int p : mesh_.nodes_of[cell])
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < judged_count; ++k) {
       range[k].high = std::max(range[k].high, judged_[p].high[k]);
       range[k].low = std::min(range[k].low, -judged_[p].minus_low[k]);
     }

@@ -23,6 +23,15 @@ namespace titin {
 template <int D>
 using Slopes = std::array<Vector<D>, field_count<D>>;
 
+/// sum_j d T_ij / d x_j.
+template <int D>
+Vector<D> divergence_of_stress(const Slopes<D>& g) {
+  Vector<D> sum{};
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) sum[i] += g[D + symmetric_index<D>(i, j)][j];
+  return sum;
+}
+
 template <int D>
 class Reconstruction {
  public:
@@ -37,11 +46,18 @@ class Reconstruction {
   /// Scales slopes; needs gather_ranges of the same state.
   void limit(int cell, const FlowState<D>& state, Slopes<D>& g) const;
 
+  /// What steps are judged by: density [kg/m^3], mean stress [Pa], components of the velocity [m/s].
+  static constexpr int judged_count = 2 + D;
+  static std::array<double, judged_count> judged(const CellRecord<D>& c) {
+    std::array<double, judged_count> values{c.density, mean_stress<D>(c.q)};
+    std::copy_n(c.q.begin(), D, values.begin() + 2);
+    return values;
+  }
   struct Range {
     double low, high;
   };
-  /// Over the cells that share a node with this one, itself included: of the density, of the mean stress.
-  std::array<Range, 2> ranges(int cell) const;
+  /// Of each of these over the cells that share a node with this one, itself included.
+  std::array<Range, judged_count> ranges(int cell) const;
 
  private:
   static constexpr int fields = field_count<D>;
@@ -55,8 +71,8 @@ class Reconstruction {
   struct Extremes {  // of all fields; as maxima, so that one exchange does for both
     CellFields<D> high, minus_low;
   };
-  struct JudgedExtremes {  // of what steps are judged by: density [kg/m^3], mean stress [Pa]
-    std::array<double, 2> high, minus_low;
+  struct JudgedExtremes {
+    std::array<double, judged_count> high, minus_low;
   };
 
   const SimplexMesh<D>& mesh_;

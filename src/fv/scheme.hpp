@@ -70,7 +70,8 @@ class FlowScheme {
   void move(std::span<const int> nodes, double dt);
   void update(std::span<const int> cells, double t, double dt);
   void take_forces(int cell, double dt);
-  bool in_trouble(int cell) const;
+  bool in_trouble(int cell, double dt) const;
+  bool is_smooth(int cell, const Slopes<D>& g) const;
   bool has_meaning(int cell) const;
   std::string judge(double t, double dt);
   std::string failure() const;
@@ -86,6 +87,7 @@ class FlowScheme {
   std::vector<Matrix<D>> inverse_edges_;  // D_m^-1
   std::vector<int> all_, all_nodes_, troubled_;
   mutable std::vector<WaveMemory> waves_;
+  std::vector<double> stiffening_;  // by which shocks are faster than sound [m/s]
   Boundary<D> boundary_;
   Reconstruction<D> reconstruction_;
   NodalSolver<D> nodes_;
@@ -95,6 +97,7 @@ class FlowScheme {
   std::vector<Vector<D>> half_x_;
   Source source_{};
   double largest_dt_ = 0;
+  bool nodes_have_moved_ = false;  // is there a velocity of nodes to compare cells with?
 };
 
 template <int D>

@@ -4,6 +4,7 @@
 
 #include "fe/muscle.hpp"
 #include "fv/lagrange.hpp"
+#include "mesh/box_shape.hpp"
 #include "mesh/mesh.hpp"
 
 namespace titin {
@@ -31,6 +32,10 @@ struct SceneConfig {
     Section mesh_section = root.section("mesh", "a box, or a file");
     mesh.bind(mesh_section);
     NamedMesh named = root.describing() ? NamedMesh{} : NamedMesh::read(mesh, mesh_section);
+    BoxShape shape;
+    Section shape_section = mesh_section.section("shape", "where a box lies, and how it is bent");
+    shape.bind(shape_section);
+    if (named.mesh && !mesh.box.empty() && mesh_section.has("shape")) shape.apply(*named.mesh);
     Section time = root.section("time", "from 0 to the end by steps");
     clock.by_stability = model == ModelName::lagrange;
     clock.bind(time);
