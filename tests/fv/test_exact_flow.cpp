@@ -116,6 +116,48 @@ TEST(Shocks, NohWithSlopesFinishesWithItsPlateau) {
   EXPECT_LT(flow.steps, 1000) << "no cell collapses";
 }
 
+// Rubber with fibres that resist when they are stretched; their stretch is that of the shape alone, J^(-1/3) lambda.
+constexpr double fibre_stiffness = 4e8;
+std::shared_ptr<const Material> fibrous(const char* direction) {
+  Config text(fmt::format(R"(density = "1100 kg/m^3"
+fibre = {}
+volumetric = {{ law = "quad_log", bulk_modulus = "{:.17g} Pa" }}
+terms.base = {{ law = "neo_hookean", mu = "{:.17g} Pa" }}
+terms.fibres = {{ law = "linear_fibre", stiffness = "{:.17g} Pa" }})",
+                          direction, rubber_kappa, rubber_mu, fibre_stiffness),
+              "test.toml");
+  auto material = Material::read(text.root());
+  text.finish();
+  return material;
+}
+
+/// A strip between slippery walls is pulled at its left end by v: behind the wave, which runs by c, all moves by v, so
+/// that the momentum is rho A v c t. Returns that c [m/s].
+double pulled_wave(const char* fibre) {
+  constexpr double v = 0.02, length = 1;
+  const Table pulling{v};
+  BoundaryCondition<2> end;
+  end.attributes = {4};
+  end.normal_velocity = &pulling;
+  Flow<2> flow(unit_box<2>(100, 0, length, 2), make_closure(fibrous(fibre)), {}, {end, wall<2>({1, 3})},
+               [](const Vector<2>&, const Closure& closure) {
+                 return CellStart{nullptr, rubber_density, closure.energy_at(0, 0), {}};
+               });
+  flow.run_to(1e-3);
+  return -totals(*flow.scheme).momentum[0] / (rubber_density * 0.02 * v * flow.t);
+}
+
+TEST(Waves, RunFasterAlongFibresThanAcross) {
+  const double along = pulled_wave("[1, 0, 0]"), across = pulled_wave("[0, 1, 0]");
+  const double matrix = rubber_kappa + 4 * rubber_mu / 3;
+  const double c_along = std::sqrt((matrix + 4 * fibre_stiffness / 9) / rubber_density),
+               c_across = std::sqrt(matrix / rubber_density);
+  if (is_root())
+    fmt::print("Waves: along {:.2f} of {:.2f} m/s, across {:.2f} of {:.2f} m/s\n", along, c_along, across, c_across);
+  EXPECT_NEAR(along, c_along, 0.01 * c_along);
+  EXPECT_NEAR(across, c_across, 0.01 * c_across);
+}
+
 // A block thrown at a slippery rigid floor: it lands, turns round and leaves; the floor only pushes.
 template <int D>
 void expect_rebound(Contact contact) {
