@@ -104,7 +104,7 @@ void FaceLoads::add_face(mfem::FaceElementTransformations& map, const BoundaryCo
     element.CalcDShape(in_cell, slope);
     mfem::Mult(slope, map.Elem1->InverseJacobian(), gradient);
     mfem::CalcOrtho(map.Jacobian(), normal);  // outward of cell 1, as long as the area is large
-    Point point{{shape.begin(), shape.end()}, std::vector<double>(3 * nodes), {}, {}};
+    Point point{{shape.begin(), shape.end()}, std::vector<double>(3 * nodes), {}, {}, 0, 0};
     mfem::Vector X(point.X.data(), dimension_);
     map.Elem1->Transform(in_cell, X);
     for (int J = 0; J < dimension_; ++J) {
@@ -133,24 +133,57 @@ void FaceLoads::set_area(const BoundaryConfig& load) {
 
 SupportPoint FaceLoads::support_point(const Face& face, const Point& point) const {
   const double area = norm(point.normal);
-  return {point.N.data(), static_cast<int>(point.N.size()), dimension_, area, area / face.whole_area, point.X};
+  return {point.N.data(),  static_cast<int>(point.N.size()), dimension_, area, area / face.whole_area, point.X,
+          point.multiplier};
 }
 
-void FaceLoads::add_supports(int cell, double time, const double* u, double* r, double* K) const {
+void FaceLoads::add_supports(int cell, double time, const SupportMotion& motion, double* r, double* K) const {
   for (const Face& face : faces_of_cell_[cell])
     for (const Point& point : face.points)
-      if (face.load->support.given()) add_support(face.load->support, time, support_point(face, point), u, r, K);
+      if (face.load->support.given()) add_support(face.load->support, time, support_point(face, point), motion, r, K);
 }
 
-SupportState FaceLoads::support_state(const BoundaryConfig& boundary, double time,
-                                      const std::function<const double*(int cell)>& u) const {
+/// Calls visit(cell, face, point) where a wall is augmented.
+template <class Visit>
+void FaceLoads::for_each_wall_point(Visit visit) {
+  for (std::size_t cell = 0; cell < faces_of_cell_.size(); ++cell)
+    for (Face& face : faces_of_cell_[cell])
+      for (Point& point : face.points)
+        if (face.load->support.wall.gap_tolerance > 0) visit(static_cast<int>(cell), face, point);
+}
+
+double FaceLoads::augmentation_error(double time, const MotionOfCell& motion) {
+  double largest = 0;
+  for_each_wall_point([&](int cell, const Face& face, const Point& point) {
+    const WallConfig& wall = face.load->support.wall;
+    const double change = wall_pressure(wall, time, support_point(face, point), motion(cell).u) - point.multiplier;
+    largest = std::max(largest, std::abs(change) / (wall.penalty * wall.gap_tolerance));
+  });
+  return largest;
+}
+
+void FaceLoads::augment(double time, const MotionOfCell& motion) {
+  for_each_wall_point([&](int cell, const Face& face, Point& point) {
+    point.multiplier = wall_pressure(face.load->support.wall, time, support_point(face, point), motion(cell).u);
+  });
+}
+
+void FaceLoads::accept_multipliers() {
+  for_each_wall_point([](int, const Face&, Point& point) { point.multiplier_old = point.multiplier; });
+}
+
+void FaceLoads::reset_multipliers() {
+  for_each_wall_point([](int, const Face&, Point& point) { point.multiplier = point.multiplier_old; });
+}
+
+SupportState FaceLoads::support_state(const BoundaryConfig& boundary, double time, const MotionOfCell& motion) const {
   SupportState state;
   state.gap = std::numeric_limits<double>::infinity();
   for (std::size_t cell = 0; cell < faces_of_cell_.size(); ++cell)
     for (const Face& face : faces_of_cell_[cell])
       for (const Point& point : face.points)
         if (face.load == &boundary)
-          add_state(boundary.support, time, support_point(face, point), u(static_cast<int>(cell)), state);
+          add_state(boundary.support, time, support_point(face, point), motion(static_cast<int>(cell)), state);
   return state;
 }
 

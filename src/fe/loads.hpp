@@ -60,16 +60,22 @@ class FaceLoads {
   /// Adds minus the load's nodal forces to r [components][nodes]; with K != nullptr also their derivative.
   void add(int cell, double time, const double* u, double* r, double* K) const;
   /// The same of supports, which have a potential.
-  void add_supports(int cell, double time, const double* u, double* r, double* K) const;
-  /// What the supports of a boundary do to this rank's part of it; `u` [components][nodes] of a cell.
-  SupportState support_state(const BoundaryConfig& boundary, double time,
-                             const std::function<const double*(int cell)>& u) const;
+  void add_supports(int cell, double time, const SupportMotion& motion, double* r, double* K) const;
+  using MotionOfCell = std::function<SupportMotion(int cell)>;
+  /// What the supports of a boundary do to this rank's part of it.
+  SupportState support_state(const BoundaryConfig& boundary, double time, const MotionOfCell& motion) const;
+  /// By how much multipliers of walls are off at this motion, over their gap_tolerance: 1 is good enough. This rank's.
+  double augmentation_error(double time, const MotionOfCell& motion);
+  void augment(double time, const MotionOfCell& motion);  ///< takes the pressures for multipliers
+  void accept_multipliers();
+  void reset_multipliers();  ///< to those accepted last
 
  private:
   struct Point {
-    std::vector<double> N, G;      // shapes [nodes], reference gradients [J][nodes]
-    std::array<double, 3> normal;  // outward, times reference area [m^2]
-    std::array<double, 3> X;       // [m]
+    std::vector<double> N, G;                   // shapes [nodes], reference gradients [J][nodes]
+    std::array<double, 3> normal;               // outward, times reference area [m^2]
+    std::array<double, 3> X;                    // [m]
+    double multiplier = 0, multiplier_old = 0;  // of a wall [Pa]: of this step, of the last
   };
   struct Face {
     const BoundaryConfig* load;
@@ -78,6 +84,8 @@ class FaceLoads {
   };
   void add_face(mfem::FaceElementTransformations& map, const BoundaryConfig& load, const mfem::IntegrationRule& rule,
                 const mfem::FiniteElement& element, double thickness);
+  template <class Visit>
+  void for_each_wall_point(Visit visit);
   void set_area(const BoundaryConfig& load);
   SupportPoint support_point(const Face& face, const Point& point) const;
   void add_dead(const Face& face, double time, double* r) const;

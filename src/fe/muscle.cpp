@@ -1,5 +1,7 @@
 #include "fe/muscle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -11,6 +13,9 @@ namespace {
 
 /// Of the body's size: errors are not held against displacements that are smaller.
 constexpr double small_displacement = 1e-3;
+/// Each leaves of a wall's error body / (body + penalty), in stiffness: with a penalty as stiff as the body 30 leave
+/// 1e-9.
+constexpr int most_augmentations = 30;
 /// Of a step: its end is a sum, and may lie behind a kink of what is prescribed by round-off. Rates are taken before
 /// it.
 constexpr double round_off = 1e-9;
@@ -41,9 +46,10 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
 
 void Muscle::start() {
   mfem::Vector R(system_.size());
+  const mfem::Vector v = config_.initial.at_dofs(space_);
+  system_.step().known_velocity = v;
   system_.residual(trial_, R);
   system_.accept_forces();
-  const mfem::Vector v = config_.initial.at_dofs(space_);
   const bool accelerates = config_.inertia == Inertia::dynamic && uses_acceleration(config_.integrator);
   integrator_.start(trial_, v, accelerates ? initial_acceleration(system_, mesh_.thickness, R) : trial_);
 }
@@ -76,6 +82,7 @@ void Muscle::update_fields() {
 Step Muscle::advance(double dt) {
   if (remember_) system_.history().commit();  // not before: outputs of the accepted step ask for what led to it
   remember_ = false;
+  system_.reset_multipliers();
   Step step;
   step.time = time_ + dt;
   step.dt = dt;
@@ -85,14 +92,25 @@ Step Muscle::advance(double dt) {
   system_.step() = StepState(integrator_, step.time);
   step.failure = predict(step);
   if (!step.ok()) return step;
-  const NewtonResult result = newton().solve(trial_);
-  step.newton += result.iterations;
-  step.krylov += result.krylov;
-  step.residual = result.residual;
-  step.residuals = result.residuals;
-  step.failure = result.failure;
+  solve(step);
   if (step.ok()) estimate_error(step);
   return step;
+}
+
+/// Newton's method, and again while walls give by more than they may.
+void Muscle::solve(Step& step) {
+  for (int round = 0; round <= most_augmentations; ++round) {
+    const NewtonResult result = newton().solve(trial_);
+    step.newton += result.iterations;
+    step.krylov += result.krylov;
+    step.residual = result.residual;
+    step.residuals = result.residuals;
+    step.failure = result.failure;
+    if (!step.ok() || !system_.augment(trial_)) return;
+  }
+  step.failure =
+      fmt::format("a wall still gives by more than its gap_tolerance after {} augmentations: raise its penalty",
+                  most_augmentations);
 }
 
 /// Root mean square over free dofs, over that of the largest displacement so far or, while that is small, of the body.

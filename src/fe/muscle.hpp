@@ -41,6 +41,7 @@ class Muscle : public Model {
   void start();
   Newton& newton();
   void follow(const StepState& step);
+  void solve(Step& step);
   void estimate_error(Step& step);
   std::string predict(Step& step);
   double continued_part(const Step& step) const;

@@ -71,6 +71,12 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
   integrator.bind(time);
   if (inertia == Inertia::quasi_static && time.has("scheme"))
     time.error("scheme", "nothing moves by inertia here", "drop it, or set muscle.inertia = \"dynamic\"");
+  for (const BoundaryConfig& boundary : boundaries)
+    if (integrator.scheme == Scheme::energy_momentum && boundary.support.wall.gap_tolerance > 0)
+      time.error("scheme",
+                 fmt::format("walls are met in the middle of its steps, not within gap_tolerance at their end ({})",
+                             boundary.name),
+                 "take another scheme, or drop gap_tolerance");
   Section body = root.section("body", "forces per mass on everything");
   body.read("acceleration", body_acceleration, {.unit = "m/s^2", .doc = "body force per mass, e.g. gravity"});
   body.read("scale", body_scale, {.doc = "factor of the acceleration, constant or in time"});

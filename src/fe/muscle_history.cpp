@@ -71,6 +71,9 @@ void MuscleHistory::take_markers() {
 
 void MuscleHistory::update(const mfem::Vector& u, const mfem::Vector& v, const StepState& step) {
   u_ = u;
+  v_ = v;
+  dissipated_by_support_.resize(system_.config().boundaries.size());
+  add_support_dissipation(step);
   forces_ = system_.forces();
   kinetic_ = volumetric_ = volume_ = 0;
   for (auto& term : terms_)
@@ -202,17 +205,34 @@ Quantity MuscleHistory::reaction(int boundary, int component) const {
           sum(force)};
 }
 
-/// Returns the energy that the boundary's spring and wall hold.
-double MuscleHistory::add_support_quantities(const BoundaryConfig& boundary, std::vector<Quantity>& list) const {
-  const std::vector<double> u_cells = system_.cell_values(u_);
-  const SupportState state = system_.loads().support_state(
-      boundary, system_.step().time, [&](int cell) { return &u_cells[system_.first_value(cell)]; });
+/// What dampers took in the step, by its mean velocity.
+void MuscleHistory::add_support_dissipation(const StepState& step) {
+  if (!(step.dt > 0)) return;
+  mfem::Vector mean(u_);
+  mean -= step.u_old;
+  mean /= step.dt;
+  const std::vector<double> u_cells = system_.cell_values(u_), v_cells = system_.cell_values(mean);
+  const auto& boundaries = system_.config().boundaries;
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
+    if (boundaries[b].support.has_damper())
+      dissipated_by_support_[b] +=
+          step.dt *
+          system_.loads().support_state(boundaries[b], step.time, system_.motion_of(u_cells, v_cells)).dissipation;
+}
+
+/// Returns what the boundary's supports hold and have dissipated: they are part of the system.
+double MuscleHistory::add_support_quantities(std::size_t b, std::vector<Quantity>& list) const {
+  const BoundaryConfig& boundary = system_.config().boundaries[b];
+  const std::vector<double> u_cells = system_.cell_values(u_), v_cells = system_.cell_values(v_);
+  const SupportState state =
+      system_.loads().support_state(boundary, system_.step().time, system_.motion_of(u_cells, v_cells));
   for (int i = 0; i < system_.tables().dimension(); ++i)
     list.push_back({fmt::format("support_{}_{}", boundary.name, component_name[i]), "N", sum(state.force[i])});
   if (boundary.support.wall.given) list.push_back({"gap_" + boundary.name, "m", min(state.gap)});
-  const double energy = sum(state.energy);
+  const double energy = sum(state.energy), dissipated = sum(dissipated_by_support_[b]);
   list.push_back({"energy_support_" + boundary.name, "J", energy});
-  return energy;
+  if (boundary.support.has_damper()) list.push_back({"dissipation_support_" + boundary.name, "J", dissipated});
+  return energy + dissipated;
 }
 
 std::vector<Quantity> MuscleHistory::quantities() const {
@@ -240,8 +260,8 @@ std::vector<Quantity> MuscleHistory::quantities() const {
     list.push_back({"dissipation_" + term.name, "J", dissipated});
   }
   double held = 0;
-  for (const BoundaryConfig& b : boundaries)
-    if (b.support.given()) held += add_support_quantities(b, list);
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
+    if (boundaries[b].support.given()) held += add_support_quantities(b, list);
   stored += held;
   const double boundary = sum(work_boundary_) + held, body = sum(work_body_);  // supports are part of the system
   list.push_back({"work_boundary", "J", boundary});

@@ -46,11 +46,12 @@ class MuscleHistory {
   void add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
   double energy_of_curves(int cell, int term, const Material& material, const ThreeField& kernel, PointInput in) const;
   void add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
+  void add_support_dissipation(const StepState& step);
   void add_boundary_work(const mfem::Vector& u, const StepState& step);
   double work(const Mat3& P, const Mat3& F, const Mat3& F_old);
   void take_means();
   void take_markers();
-  double add_support_quantities(const BoundaryConfig& boundary, std::vector<Quantity>& list) const;
+  double add_support_quantities(std::size_t boundary, std::vector<Quantity>& list) const;
   Quantity reaction(int boundary, int component) const;
 
   MuscleSystem& system_;
@@ -64,7 +65,7 @@ class MuscleHistory {
     mfem::Vector shape;
   };
   std::vector<Marker> markers_;
-  mfem::Vector u_, forces_;
+  mfem::Vector u_, v_, forces_;
   // What does work, at the end of the last step: forces at dofs, and stresses of terms that store nothing.
   mfem::Vector boundary_forces_old_, body_forces_old_;
   std::vector<Mat3> P_old_;      // [cell][term][point]
@@ -72,6 +73,7 @@ class MuscleHistory {
   double end_weight_ = 1;        // of the forces at the end of a step in its work; those at its beginning have the rest
   double kinetic_ = 0, volumetric_ = 0, volume_ = 0, work_boundary_ = 0, work_body_ = 0, kinetic_at_start_ = -1;
   double stored_at_start_ = 0;
+  std::vector<double> dissipated_by_support_;  // [boundary]; this rank's part
   std::string shown_;
 };
 

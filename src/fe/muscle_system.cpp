@@ -21,6 +21,7 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
       u_old_cell_(tables_.most_values()),
       rate_old_cell_(tables_.most_values()),
       middle_cell_(tables_.most_values()),
+      velocity_cell_(tables_.most_values()),
       forces_(space.GetTrueVSize()),
       body_forces_(space.GetTrueVSize()),
       load_forces_(space.GetTrueVSize()),
@@ -52,9 +53,15 @@ StepState::StepState(const Integrator& integrator, double time)
       inertia_factor(integrator.inertia_factor()),
       inertia_weight(integrator.rule().inertia_weight),
       known_inertia(integrator.known_inertia()),
+      velocity_factor(integrator.velocity_factor()),
+      known_velocity(integrator.known_velocity()),
       force_weight(integrator.rule().force_weight),
       work_weight(integrator.rule().work_weight) {
   conserving = integrator.config().scheme == Scheme::energy_momentum;
+  if (conserving) {  // loads act in the middle of the step
+    velocity_factor = 1 / dt;
+    known_velocity = 0.0;
+  }
   const bool lines = integrator.config().velocity == VelocityForm::lines;
   if (integrator.config().scheme == Scheme::semi_implicit) {
     rate_dt = integrator.dt_old() > 0 ? integrator.dt_old() : dt;
@@ -74,6 +81,7 @@ StepState::StepState(double time, double dt, const mfem::Vector& u_old, const mf
 }
 
 void MuscleSystem::accept_forces() {
+  loads_.accept_multipliers();
   static_forces_old_ = static_forces_;
   inertial_forces_old_ = inertial_forces_;
 }
@@ -117,6 +125,7 @@ MuscleSystem::LocalVectors::LocalVectors(MuscleSystem& system, const mfem::Vecto
   to_local(u_true, u);
   to_local(system.step_.u_old, u_old);
   if (system.step_.rate_dt > 0) to_local(system.step_.rate_old, rate_old);
+  if (system.step_.known_velocity.Size() > 0) to_local(system.step_.known_velocity, known_velocity);
 }
 
 void MuscleSystem::gather(int cell, const mfem::Vector& local, double* values) const {
@@ -220,6 +229,28 @@ const double* MuscleSystem::load_position() {
   return middle_cell_.data();
 }
 
+/// Where, and how fast, the supports of the cell that deform() was called for are met.
+SupportMotion MuscleSystem::support_motion(int cell, const LocalVectors& local) {
+  if (local.known_velocity.Size() == 0) return {load_position(), nullptr, 0};
+  gather(cell, local.known_velocity, velocity_cell_.data());
+  for (int c = 0; c < tables_.values(cell); ++c)
+    velocity_cell_[c] += step_.velocity_factor * (u_cell_[c] - u_old_cell_[c]);
+  return {load_position(), velocity_cell_.data(), step_.velocity_factor};
+}
+
+FaceLoads::MotionOfCell MuscleSystem::motion_of(const std::vector<double>& u_cells,
+                                                const std::vector<double>& v_cells) const {
+  return [&](int cell) { return SupportMotion{&u_cells[first_value(cell)], &v_cells[first_value(cell)], 0}; };
+}
+
+bool MuscleSystem::augment(const mfem::Vector& u) {
+  const std::vector<double> u_cells = cell_values(u);
+  const auto motion = motion_of(u_cells, u_cells);
+  if (!any_of(loads_.augmentation_error(load_time(), motion) > 1)) return false;
+  loads_.augment(load_time(), motion);
+  return true;
+}
+
 bool MuscleSystem::add_internal_forces(int cell, double* r) {
   const PointInput in = point_input(cell);
   if (!step_.conserving) {
@@ -233,6 +264,8 @@ bool MuscleSystem::add_internal_forces(int cell, double* r) {
 
 bool MuscleSystem::has_potential() const {
   if (step_.conserving || loads_.has_follower()) return false;
+  for (const BoundaryConfig& boundary : config_.boundaries)
+    if (boundary.support.has_damper()) return false;
   for (const auto& [name, material] : config_.materials)
     for (const TermInfo& term : material->terms())
       if (!term.stores_energy || term.dissipates) return false;
@@ -254,7 +287,7 @@ double MuscleSystem::potential(const mfem::Vector& u) {
   });
   const std::vector<double> u_cells = cell_values(u);
   for (const BoundaryConfig& boundary : config_.boundaries)
-    energy += loads_.support_state(boundary, step_.time, [&](int cell) { return &u_cells[first_value(cell)]; }).energy;
+    energy += loads_.support_state(boundary, step_.time, motion_of(u_cells, u_cells)).potential;
   for (int i = 0; i < size(); ++i) {
     energy -= (load_forces_(i) + body_forces_(i)) * u(i);
     if (w != 1) energy += (1 - w) / w * static_forces_old_(i) * u(i);
@@ -273,7 +306,7 @@ bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mf
   if (!add_internal_forces(cell, internal.data())) return false;
   if (loads_.on_cell(cell)) {
     loads_.add(cell, load_time(), load_position(), load.data(), nullptr);
-    loads_.add_supports(cell, load_time(), load_position(), support.data(), nullptr);
+    loads_.add_supports(cell, load_time(), support_motion(cell, local), support.data(), nullptr);
   }
   add_inertia_and_body(cell, acceleration, inertia.data(), body.data());
   for (int c = 0; c < n; ++c) {

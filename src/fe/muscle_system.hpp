@@ -33,6 +33,9 @@ struct StepState {
   double inertia_factor = 0,
          inertia_weight = 1;   ///< [1/s^2]; part of the acceleration at the end in that of the balance
   mfem::Vector known_inertia;  ///< [m/s^2]
+  // The velocity where loads act is velocity_factor (u - u_old) + known_velocity; empty: zero.
+  double velocity_factor = 0;   ///< [1/s]
+  mfem::Vector known_velocity;  ///< [m/s]
   double force_weight = 1;
   double work_weight = 1;  ///< of the forces at the end in the work of the step
   // The rate of fibres, where it is not that from u_old to u in dt: from rate_old in rate_dt to u, or to u_old.
@@ -78,6 +81,12 @@ class MuscleSystem : public NonlinearSystem {
   const Constraints& constraints() const { return constraints_; }
   /// Forces at all dofs at the last residual(): reactions where they are constrained [N].
   const mfem::Vector& forces() const { return forces_; }
+  /// Takes the pressures of walls at u for their multipliers where they give by more than they may. Returns false when
+  /// none does. Collective.
+  bool augment(const mfem::Vector& u);
+  void reset_multipliers() { loads_.reset_multipliers(); }
+  /// Displacement and velocity of cells at u, for supports: good while both live.
+  FaceLoads::MotionOfCell motion_of(const std::vector<double>& u_cells, const std::vector<double>& v_cells) const;
   /// The forces of the last residual() become those of the beginning of the next step.
   void accept_forces();
   const mfem::Vector& body_forces() const { return body_forces_; }  ///< of the last residual() [N]
@@ -108,7 +117,7 @@ class MuscleSystem : public NonlinearSystem {
  private:
   struct LocalVectors {
     LocalVectors(MuscleSystem& system, const mfem::Vector& u);
-    mfem::Vector u, u_old, rate_old;
+    mfem::Vector u, u_old, rate_old, known_velocity;
   };
   struct LocalForces;
   bool moving() const { return config_.inertia == Inertia::dynamic && step_.dt > 0; }
@@ -123,6 +132,7 @@ class MuscleSystem : public NonlinearSystem {
   /// When, and at which displacement of the cell, loads act in the step.
   double load_time() const { return step_.conserving ? step_.time - 0.5 * step_.dt : step_.time; }
   const double* load_position();
+  SupportMotion support_motion(int cell, const LocalVectors& local);
   bool add_internal_forces(int cell, double* r);
   void add_internal_tangent(int cell, double* K);
   void add_load_tangent(int cell, const LocalVectors& local, double* K);
@@ -154,7 +164,7 @@ class MuscleSystem : public NonlinearSystem {
   std::unique_ptr<CellMatrices> matrices_;  // null where cells are formed singly
   std::unique_ptr<Assembly> assembly_;      // large: not there before the first step, so that checking a scene is cheap
   std::unique_ptr<TangentCells> cells_;     // once a linear solver asks for them
-  std::vector<double> u_cell_, u_old_cell_, rate_old_cell_, middle_cell_;
+  std::vector<double> u_cell_, u_old_cell_, rate_old_cell_, middle_cell_, velocity_cell_;
   mfem::Vector forces_, body_forces_, load_forces_, support_forces_;
   // Internal less body and surface forces, and density times the acceleration in the balance: now and at the
   // beginning of the step.

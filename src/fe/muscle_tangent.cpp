@@ -89,9 +89,11 @@ void MuscleSystem::add_load_tangent(int cell, const LocalVectors& local, double*
   gather(cell, local.u, u_cell_.data());
   gather(cell, local.u_old, u_old_cell_.data());
   std::vector<double> unused(n), slope(n * n);
-  loads_.add(cell, load_time(), load_position(), unused.data(), slope.data());
-  loads_.add_supports(cell, load_time(), load_position(), unused.data(), slope.data());
   const double part = step_.conserving ? 0.5 : 1;  // how far the load's place moves with the end of the step
+  SupportMotion motion = support_motion(cell, local);
+  motion.velocity_factor /= part;
+  loads_.add(cell, load_time(), load_position(), unused.data(), slope.data());
+  loads_.add_supports(cell, load_time(), motion, unused.data(), slope.data());
   for (int c = 0; c < n * n; ++c) K[c] += part * slope[c];
 }
 

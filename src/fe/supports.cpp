@@ -34,6 +34,12 @@ void bind_wall(Section s, WallConfig& wall) {
           .range = positive,
           .required = true,
           .doc = "pressure over depth: take the pressure you expect over the depth that you allow"});
+  s.read(
+      "gap_tolerance", wall.gap_tolerance,
+      {.unit = "m",
+       .range = non_negative,
+       .doc = "how far the body may pass the plane, met by repeating the step's solve with better pressures; 0: what "
+              "the penalty leaves"});
   s.read("travel", wall.travel, {.unit = "m", .doc = "of the plane along its normal, constant or in time"});
 }
 
@@ -43,24 +49,31 @@ void SupportConfig::bind(Section& boundary) {
   boundary.read(
       "spring", spring,
       {.unit = "N/m", .range = non_negative, .doc = "springs to ground along x, y, z, of the boundary as a whole"});
+  boundary.read(
+      "damper", damper,
+      {.unit = "N s/m", .range = non_negative, .doc = "dampers to ground along x, y, z, of the boundary as a whole"});
   if (boundary.has("wall") || boundary.describing())
     bind_wall(boundary.section("wall", "a rigid plane that the boundary may touch but not pass"), wall);
 }
 
-void add_support(const SupportConfig& support, double time, const SupportPoint& point, const double* u, double* r,
-                 double* K) {
-  const Vec3 at = displacement(point, u);
+double wall_pressure(const WallConfig& wall, double time, const SupportPoint& point, const double* u) {
+  return std::max(0.0, point.multiplier - wall.penalty * gap(wall, time, point, displacement(point, u)));
+}
+
+void add_support(const SupportConfig& support, double time, const SupportPoint& point, const SupportMotion& motion,
+                 double* r, double* K) {
+  const Vec3 at = displacement(point, motion.u), rate = motion.v ? displacement(point, motion.v) : Vec3{};
   Vec3 minus_force;
   Mat3 stiffness{};
   for (int i = 0; i < 3; ++i) {
-    stiffness[4 * i] = support.spring[i] * point.share;
-    minus_force[i] = stiffness[4 * i] * at[i];
+    minus_force[i] = point.share * (support.spring[i] * at[i] + support.damper[i] * rate[i]);
+    stiffness[4 * i] = point.share * (support.spring[i] + motion.velocity_factor * support.damper[i]);
   }
-  const double g = support.wall.given ? gap(support.wall, time, point, at) : 1;
-  if (g <= 0) {  // what stands on the wall at the start is held by it
-    const double push = support.wall.penalty * point.area;
-    for (int i = 0; i < 3; ++i) minus_force[i] += push * g * support.wall.normal[i];
-    add(stiffness, push, dyad(support.wall.normal, support.wall.normal));
+  const WallConfig& wall = support.wall;
+  const double pressure = wall.given ? point.multiplier - wall.penalty * gap(wall, time, point, at) : -1;
+  if (pressure >= 0) {  // what stands on the wall at the start is held by it
+    for (int i = 0; i < 3; ++i) minus_force[i] -= point.area * pressure * wall.normal[i];
+    add(stiffness, wall.penalty * point.area, dyad(wall.normal, wall.normal));
   }
   const int nodes = point.nodes, n = point.dimension * nodes;
   for (int i = 0; i < point.dimension; ++i)
@@ -71,20 +84,24 @@ void add_support(const SupportConfig& support, double time, const SupportPoint& 
     }
 }
 
-void add_state(const SupportConfig& support, double time, const SupportPoint& point, const double* u,
+void add_state(const SupportConfig& support, double time, const SupportPoint& point, const SupportMotion& motion,
                SupportState& state) {
-  const Vec3 at = displacement(point, u);
+  const Vec3 at = displacement(point, motion.u), rate = motion.v ? displacement(point, motion.v) : Vec3{};
   for (int i = 0; i < 3; ++i) {
-    const double stiffness = support.spring[i] * point.share;
-    state.force[i] -= stiffness * at[i];
-    state.energy += 0.5 * stiffness * at[i] * at[i];
+    const double held = 0.5 * point.share * support.spring[i] * at[i] * at[i];
+    state.force[i] -= point.share * (support.spring[i] * at[i] + support.damper[i] * rate[i]);
+    state.energy += held;
+    state.dissipation += point.share * support.damper[i] * rate[i] * rate[i];
+    state.potential += held;
   }
-  if (!support.wall.given) return;
-  const double g = gap(support.wall, time, point, at), push = support.wall.penalty * point.area;
+  const WallConfig& wall = support.wall;
+  if (!wall.given) return;
+  const double g = gap(wall, time, point, at), depth = std::max(0.0, -g);
+  const double pressure = wall_pressure(wall, time, point, motion.u);
   state.gap = std::min(state.gap, g);
-  if (g >= 0) return;
-  for (int i = 0; i < 3; ++i) state.force[i] -= push * g * support.wall.normal[i];
-  state.energy += 0.5 * push * g * g;
+  for (int i = 0; i < 3; ++i) state.force[i] += point.area * pressure * wall.normal[i];
+  state.energy += 0.5 * wall.penalty * point.area * depth * depth;
+  state.potential += 0.5 * point.area / wall.penalty * (pressure * pressure - point.multiplier * point.multiplier);
 }
 
 }  // namespace titin

@@ -73,6 +73,72 @@ TEST(Spring, CarriesAMassThatOscillates) {
   EXPECT_NEAR(std::log2(coarse / fine), 1, 0.15);
 }
 
+/// The same mass, damped and under its weight from the start, by two schemes: the exact decaying oscillation.
+TEST(Damper, TakesAnOscillationAtTheOrderOfTheScheme) {
+  const double k = 12, c = 0.05, mass = 1000 * 3e-6, g = 2, end = 0.04;
+  const double omega = std::sqrt(k / mass), decay = c / (2 * mass), damped = std::sqrt(omega * omega - decay * decay);
+  const double exact =
+      mass * g / k * (1 - std::exp(-decay * end) * (std::cos(damped * end) + decay / damped * std::sin(damped * end)));
+  for (const auto& [scheme, order] : {std::pair{"backward_euler", 1.0}, {"newmark", 2.0}}) {
+    const auto run = [&, scheme = scheme](int steps) {
+      const auto model = make_block(std::string("[time]\nscheme = \"") + scheme +
+                                    "\"\n[body]\nacceleration = \"2, 0, 0 m/s^2\"\n" + sliding_sides +
+                                    "[boundary.\"x+\"]\nspring = \"12, 0, 0 N/m\"\ndamper = \"0.05, 0, 0 N s/m\"\n"
+                                    "[markers]\np = \"30, 0, 0 mm\"\n" +
+                                    tight +
+                                    "[materials.stiff]\ndensity = \"1000 kg/m^3\"\nvolumetric = { law = \"simo\", "
+                                    "bulk_modulus = \"500 MPa\" }\n[materials.stiff.terms]\nbase = { law = "
+                                    "\"neo_hookean\", mu = \"100 MPa\" }\n");
+      for (const Step& step : march(*model, end, end / steps)) {
+        EXPECT_TRUE(step.ok()) << step.failure;
+        EXPECT_LE(step.newton, 4);
+      }
+      if (order == 2) {
+        const double held = quantity(*model, "energy_support_x+") + quantity(*model, "energy_kinetic");
+        const double taken = quantity(*model, "dissipation_support_x+");
+        EXPECT_GT(taken, 0.1 * held);
+        EXPECT_NEAR(held + taken, quantity(*model, "work_body"), 1e-3 * held) << "energy goes nowhere else";
+      }
+      return std::abs(quantity(*model, "marker_p_ux") - exact);
+    };
+    const double coarse = run(20), fine = run(40);
+    fmt::print("damped mass on a spring, {}: error {:.2e}, half the step {:.2e}, order {:.2f}\n", scheme, coarse, fine,
+               std::log2(coarse / fine));
+    EXPECT_NEAR(std::log2(coarse / fine), order, 0.25);
+  }
+}
+
+/// Pressed by 0.5 mm on a plane, and lifted off: exact forces of a uniform block, no more gap than allowed, none of the
+/// plane's pull.
+TEST(Wall, IsMetWithinTheToleranceAndLetsGo) {
+  const auto model = make_block(
+      "[muscle]\ninertia = \"quasi-static\"\n[boundary.\"x-\"]\ndisplacement.x = \"0 mm\"\n[boundary.\"y-\"]\n"
+      "displacement.y = \"0 mm\"\n[boundary.\"z-\"]\nwall = { point = \"0, 0, 0 mm\", normal = [0, 0, 1], penalty = "
+      "\"1 "
+      "GPa/m\", gap_tolerance = \"1 nm\" }\n[boundary.\"z+\"]\ndisplacement.z = { time = \"0, 1, 2 s\", value = \"0, "
+      "-0.5, 0.5 mm\" }\n[markers]\nside = \"30, 0, 0 mm\"\n" +
+      tight + soft_material);
+  const Step pressed = model->advance(1.0);
+  ASSERT_TRUE(pressed.ok()) << pressed.failure;
+  fmt::print("pressed on a wall: {} Newton iterations\n", pressed.newton);
+  EXPECT_LE(pressed.newton, 12);
+  model->accept();
+  const double l = 0.95, m = 1 + quantity(*model, "marker_side_ux") / 0.03;
+  const double mu = 100e3, kappa = 500e3, J = l * m * m, I1 = l * l + 2 * m * m, y = std::pow(J, -2.0 / 3);
+  const double dU = kappa / 2 * (J - 1 / J), force = -(mu * y * (l - I1 / (3 * l)) + dU * m * m) * 3e-4;
+  constexpr double of_gap = 1e-9 / 0.5e-3;  // what a gap of the tolerance changes the strain by
+  EXPECT_GT(force, 1);
+  EXPECT_NEAR(quantity(*model, "support_z-_z"), force, 2 * of_gap * force);
+  EXPECT_LE(std::abs(quantity(*model, "gap_z-")), 1e-9);
+  const Step lifted = model->advance(1.0);
+  ASSERT_TRUE(lifted.ok()) << lifted.failure;
+  EXPECT_LE(lifted.newton, 12);
+  model->accept();
+  EXPECT_EQ(quantity(*model, "support_z-_z"), 0);
+  EXPECT_NEAR(quantity(*model, "gap_z-"), 0.5e-3, 1e-9);
+  EXPECT_NEAR(quantity(*model, "reaction_z+_z"), 0, newton_accuracy * force);
+}
+
 TEST(Wall, CarriesTheLoadAndTellsHowDeepTheBodySinksIn) {
   const auto model = make_block(
       "[muscle]\ninertia = \"quasi-static\"\n[boundary.\"x-\"]\ndisplacement.x = \"0 "

@@ -151,9 +151,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"order_3", "[muscle]\norder = 3\n" + soft_material + ends, true}, Case{"fields", fields, true},
                     Case{"spring_and_wall",
                          soft_material + ends +
-                             "[boundary.\"x+\"]\nspring = \"1, 2, 3 N/mm\"\n[boundary.\"z-\"]\nwall = { point = \"0, "
+                             "[boundary.\"x+\"]\nspring = \"1, 2, 3 N/mm\"\ndamper = \"2, 1, 3 N "
+                             "s/m\"\n[boundary.\"z-\"]\nwall = { point = \"0, "
                              "0, 5 mm\", normal = [0, 1, 2], penalty = \"1 GPa/m\" }\n",
                          true},
+                    Case{"conserving_damper",
+                         "[time]\nscheme = \"energy_momentum\"\n" + soft_material + ends +
+                             "[boundary.\"x+\"]\nspring = \"1, 2, 3 N/mm\"\ndamper = \"2, 1, 3 N s/m\"\n",
+                         false},
                     Case{"pressure", soft_material + ends + "[boundary.\"x+\"]\npressure = \"20 kPa\"\n", false},
                     Case{"traction", soft_material + ends + "[boundary.\"z+\"]\ntraction = \"1, 2, -3 kPa\"\n", true}),
     [](const auto& info) { return info.param.name; });
