@@ -8,7 +8,7 @@ namespace {
 
 /// Below this |dC| the quotient is left out: what is missing of the energy is of third order in it, and round-off,
 /// while the quotient would divide round-off by |dC|.
-constexpr double least_change = 1e-4;
+constexpr double least_change = 1e-6;
 /// The same for the change of the volume ratio, whose quotient has no third-order part left out.
 constexpr double least_volume_change = 1e-7;
 

@@ -1,6 +1,7 @@
 #include "fe/initial_motion.hpp"
 
 #include "fe/muscle_system.hpp"
+#include "mesh/plane_vector.hpp"
 
 namespace titin {
 namespace {
@@ -11,10 +12,12 @@ constexpr int mass_iterations = 500;
 
 }  // namespace
 
-void InitialMotion::bind(Section& s) {
-  s.read("velocity", velocity, {.unit = "m/s", .doc = "of the whole body"});
+void InitialMotion::bind(Section& s, const NamedMesh& mesh) {
+  read_vector(s, "velocity", velocity, {.unit = "m/s", .doc = "of the whole body"}, mesh);
   s.read("spin", spin, {.unit = "1/s", .doc = "angular velocity about the centre, in radians"});
-  s.read("centre", centre, {.unit = "m", .doc = "a point of the axis of the spin"});
+  read_vector(s, "centre", centre, {.unit = "m", .doc = "a point of the axis of the spin"}, mesh);
+  if (mesh.mesh && mesh.mesh->Dimension() == 2 && (spin[0] != 0 || spin[1] != 0))
+    s.error("spin", "turns the body out of its plane", "give [0, 0, rate]");
 }
 
 mfem::Vector InitialMotion::at_dofs(mfem::ParFiniteElementSpace& space) const {

@@ -7,6 +7,7 @@
 #include <mfem.hpp>
 
 #include "base/config.hpp"
+#include "mesh/mesh.hpp"
 
 namespace titin {
 
@@ -14,7 +15,7 @@ class MuscleSystem;
 
 struct InitialMotion {
   std::array<double, 3> velocity{}, spin{}, centre{};  // [m/s], [rad/s], [m]
-  void bind(Section& s);
+  void bind(Section& s, const NamedMesh& mesh);
   mfem::Vector at_dofs(mfem::ParFiniteElementSpace& space) const;  ///< true dofs [m/s]
 };
 

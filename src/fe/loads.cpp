@@ -11,6 +11,7 @@
 #include "fe/cell_element.hpp"
 #include "math/tensor.hpp"
 #include "mesh/named_parts.hpp"
+#include "mesh/plane_vector.hpp"
 
 namespace titin {
 
@@ -28,10 +29,13 @@ void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
     const char* component[] = {"x", "y", "z"};
     d.read(component[i], displacement[i], {.unit = "m", .doc = "displacement, constant or in time"});
     prescribed[i] = clamp || d.has(component[i]);
+    if (d.has(component[i]) && mesh.mesh && i >= mesh.mesh->Dimension())
+      d.error(component[i], "the body is plane", "drop it: nothing moves in z");
     if (clamp && d.has(component[i]))
       d.error(component[i], "a clamped boundary cannot be displaced", "drop clamp = true");
   }
-  s.read("traction", traction, {.unit = "Pa", .doc = "dead traction: force per undeformed area, fixed direction"});
+  read_vector(s, "traction", traction,
+              {.unit = "Pa", .doc = "dead traction: force per undeformed area, fixed direction"}, mesh);
   s.read("traction_scale", traction_scale, {.doc = "factor of the traction, constant or in time"});
   s.read("pressure", pressure,
          {.unit = "Pa", .doc = "follower pressure on the deformed surface, positive when it pushes"});

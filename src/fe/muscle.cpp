@@ -39,6 +39,8 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
   upper -= lower;
   size_ = upper.Norml2();
   prescribed_ = prescribed_rate_ = trial_;
+  if (config_.inertia == Inertia::dynamic && !any_of(system_.constraints().dofs().Size() > 0))
+    turn_ = std::make_unique<RigidTurn>(space_);
   if (config_.error_estimate) recovery_ = std::make_unique<StressRecovery>(system_);
   start();
   follow(system_.step());
@@ -141,7 +143,10 @@ std::vector<double> Muscle::kinks() const {
 std::string Muscle::predict(Step& step) {
   const double part = continued_part(step);
   mfem::Vector moved = displacement();
-  moved.Add(part * step.dt, integrator_.seen_velocity());
+  if (turn_)
+    moved = turn_->guess(integrator_, step.dt);
+  else
+    moved.Add(part * step.dt, integrator_.seen_velocity());
   const std::string failure = predict_from(moved, step);
   return failure.empty() || part == 0 ? failure : predict_from(displacement(), step);
 }

@@ -8,6 +8,7 @@
 #include "fe/muscle_fields.hpp"
 #include "fe/muscle_history.hpp"
 #include "fe/muscle_system.hpp"
+#include "fe/rigid_turn.hpp"
 #include "fe/stress_recovery.hpp"
 #include "solve/model.hpp"
 
@@ -59,6 +60,7 @@ class Muscle : public Model {
   Conservation conservation_;
   std::vector<Quantity> quantities_;  // of the accepted state
   MuscleFields fields_;
+  std::unique_ptr<RigidTurn> turn_;           // null unless the body is free
   std::unique_ptr<StressRecovery> recovery_;  // null unless asked for
   double time_ = 0;
   bool remember_ = false;                      // the history of the accepted step has still to become the past

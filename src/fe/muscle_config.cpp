@@ -5,6 +5,7 @@
 #include "base/log.hpp"
 #include "base/words.hpp"
 #include "mesh/named_parts.hpp"
+#include "mesh/plane_vector.hpp"
 
 namespace titin {
 
@@ -66,7 +67,7 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
               boundaries.push_back(boundary);
             });
   Section initial = root.section("initial", "the motion at the start: that of a rigid body");
-  this->initial.bind(initial);
+  this->initial.bind(initial, mesh);
   Section time = root.section("time");
   integrator.bind(time);
   if (inertia == Inertia::quasi_static && time.has("scheme"))
@@ -78,7 +79,8 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
                              boundary.name),
                  "take another scheme, or drop gap_tolerance");
   Section body = root.section("body", "forces per mass on everything");
-  body.read("acceleration", body_acceleration, {.unit = "m/s^2", .doc = "body force per mass, e.g. gravity"});
+  read_vector(body, "acceleration", body_acceleration, {.unit = "m/s^2", .doc = "body force per mass, e.g. gravity"},
+              mesh);
   body.read("scale", body_scale, {.doc = "factor of the acceleration, constant or in time"});
   markers = read_markers(root, mesh);
   averages = read_averages(root, mesh);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "mesh/plane_vector.hpp"
 
 namespace titin {
 namespace {
@@ -49,8 +50,8 @@ std::vector<AverageConfig> read_averages(Section& root, const NamedMesh& mesh) {
   root.each("averages", "means over the cells whose centre lies in a box", [&](const std::string& name, Section s) {
     AverageConfig average{name, {}, {}, {}};
     if (!s.describing()) average.lower.fill(unread), average.upper.fill(unread);
-    s.read("lower", average.lower, {.unit = "m", .required = true, .doc = "lower corner of the box"});
-    s.read("upper", average.upper, {.unit = "m", .required = true, .doc = "upper corner of the box"});
+    read_vector(s, "lower", average.lower, {.unit = "m", .required = true, .doc = "lower corner of the box"}, mesh);
+    read_vector(s, "upper", average.upper, {.unit = "m", .required = true, .doc = "upper corner of the box"}, mesh);
     const bool complete = was_read(average.lower) && was_read(average.upper);
     if (mesh.mesh && complete && has_corners(average, s)) find_cells(average, *mesh.mesh, s);
     averages.push_back(average);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "mesh/plane_vector.hpp"
 
 namespace titin {
 
@@ -45,12 +46,14 @@ void find_markers(std::vector<MarkerConfig>& markers, mfem::ParMesh& mesh, Secti
 }  // namespace
 
 std::vector<MarkerConfig> read_markers(Section& root, const NamedMesh& mesh) {
-  Section points = root.section("markers", "points whose displacement is followed: NAME = \"x, y, z mm\", undeformed");
+  Section points = root.section(
+      "markers",
+      "points whose displacement is followed: NAME = \"x, y, z mm\" (of a plane body \"x, y mm\"), undeformed");
   std::vector<MarkerConfig> markers;
   for (const std::string& name : points.names()) {
     MarkerConfig marker{name, {}, -1, {}};
     if (!points.describing()) marker.position.fill(unread);
-    points.read(name, marker.position, {.unit = "m", .doc = "position in the undeformed body"});
+    read_vector(points, name, marker.position, {.unit = "m", .doc = "position in the undeformed body"}, mesh);
     markers.push_back(marker);
   }
   if (mesh.mesh && !markers.empty()) find_markers(markers, *mesh.mesh, points);

@@ -99,7 +99,7 @@ TEST(Tumbling, KeepsEnergyAndMomentaInTheConservingScheme) {
   EXPECT_LT(drift.energy, solver);
   EXPECT_LT(drift.momentum, solver);
   EXPECT_LT(drift.spin, solver);
-  EXPECT_LE(drift.newton, 15);  // measured; 28 degrees a step
+  EXPECT_LE(drift.newton, 6);  // 28 degrees a step
 }
 
 TEST(Tumbling, LosesOrGainsEnergyInTheOthers) {

@@ -40,8 +40,7 @@ terms.base = { law = "neo_hookean", mu = "1 Pa" }
 [boundary."x-"]
 clamp = true
 [boundary."x+"]
-traction = "0, 0.02, 0 Pa"
-)",
+)" + std::string(solid ? "traction = \"0, 0.02, 0 Pa\"\n" : "traction = \"0, 0.02 Pa\"\n"),
       false,
       {solid ? "mesh.box=\"1, 1, 1 m\"" : "mesh.box=\"2, 1 m\"",
        solid ? fmt::format("mesh.cells=[{0}, {0}, {0}]", cells) : fmt::format("mesh.cells=[{}, {}]", 2 * cells, cells),
