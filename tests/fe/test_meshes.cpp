@@ -75,8 +75,8 @@ TEST_P(Meshes, CarryADeadTraction) {
   const Case& c = GetParam();
   pull(c, c.dimension == 2 ? "traction = \"0.3, 0 Pa\"" : "traction = \"0.3, 0, 0 Pa\"",
        [&](const Mat3& P, const Mat3& F) {
-         for (int i = 0; i < 9; ++i)
-           if (i < 8 || c.dimension == 3) EXPECT_NEAR(P[i], i == 0 ? load : 0.0, round_off) << i;
+         const int entries = c.dimension == 3 ? 9 : 8;  // a plane body is held in z
+         for (int i = 0; i < entries; ++i) EXPECT_NEAR(P[i], i == 0 ? load : 0.0, round_off) << i;
          EXPECT_GT(F[0], 1.05);
        });
 }
