@@ -15,7 +15,8 @@
 namespace titin {
 namespace {
 
-constexpr double side = 0.03, mu = 1e4;  // [m], [Pa]: the cube of the study that this table continues
+constexpr double side = 0.03, mu = 1e4;  // [m], [Pa]
+constexpr double fibre[] = {0.3420201433256687, 0, 0.9396926207859084};
 
 struct Case {
   int cells = 8;
@@ -52,12 +53,13 @@ cells = [{2}, {2}, {2}]
 inertia = "{3}"
 [materials.body]
 density = "1060 kg/m^3"
-fibre = [0.3420201433256687, 0, 0.9396926207859084]
+fibre = [{6}, {7}, {8}]
 volumetric = {{ law = "simo", bulk_modulus = "{4} Pa" }}
 [materials.body.terms]
 base = {{ law = "neo_hookean", mu = "{5} Pa" }}
 )",
-      side, side * c.aspect, c.cells, c.dt > 0 ? "dynamic" : "quasi-static", c.ratio * mu, mu);
+      side, side * c.aspect, c.cells, c.dt > 0 ? "dynamic" : "quasi-static", c.ratio * mu, mu, fibre[0], fibre[1],
+      fibre[2]);
   if (c.fibre > 0) text += fmt::format("fibres = {{ law = \"linear_fibre\", stiffness = \"{} Pa\" }}\n", c.fibre * mu);
   return text + fmt::format("[boundary.\"z-\"]\nclamp = true\n[solver]\nlinear = \"{}\"\nlinear_tolerance = {}\n",
                             c.method, c.tolerance);
@@ -79,14 +81,19 @@ void distort(mfem::Mesh& mesh, double amplitude) {
   }
 }
 
-/// Lengthened and sheared by `strain` without change of volume: pressures would be far from any equilibrium with it.
-mfem::Vector deformed(mfem::ParFiniteElementSpace& space, double strain) {
-  mfem::VectorFunctionCoefficient motion(3, [strain](const mfem::Vector& x, mfem::Vector& u) {
-    const double lateral = 1 / std::sqrt(1 + strain) - 1;
+/// Lengthened and sheared, and swollen by the pressure that holds against fibres and matrix sideways: without it the
+/// state would be far from any equilibrium, and its tangent indefinite.
+mfem::Vector deformed(mfem::ParFiniteElementSpace& space, const Case& c) {
+  const double s = c.strain, lateral = 1 / std::sqrt(1 + s);
+  const double stretch = std::hypot(lateral * fibre[0] + s * fibre[2], (1 + s) * fibre[2]);
+  const double of_fibres = c.fibre * stretch * std::max(0.0, stretch - 1);
+  const double of_matrix = (2 * lateral * lateral + (1 + s) * (1 + s)) / 3 - lateral * lateral;
+  const double size = std::cbrt(1 + (of_fibres / 3 + of_matrix) / c.ratio);  // p = kappa (J - 1), nearly
+  mfem::VectorFunctionCoefficient motion(3, [&](const mfem::Vector& x, mfem::Vector& u) {
     u.SetSize(3);
-    u(0) = lateral * x(0) + strain * x(2);
-    u(1) = lateral * x(1);
-    u(2) = strain * x(2);
+    u(0) = size * (lateral * x(0) + s * x(2)) - x(0);
+    u(1) = size * lateral * x(1) - x(1);
+    u(2) = size * (1 + s) * x(2) - x(2);
   });
   mfem::ParGridFunction field(&space);
   field.ProjectCoefficient(motion);
@@ -109,7 +116,7 @@ nlohmann::json solve(const Case& c) {
   const LinearConfig linear_config = config.newton.linear;
   Muscle model(std::move(mesh), std::move(config));
   MuscleSystem& system = model.system();
-  mfem::Vector u = deformed(system.space(), c.strain), v(u.Size()), x(u.Size()), b(u.Size()), left(u.Size());
+  mfem::Vector u = deformed(system.space(), c), v(u.Size()), x(u.Size()), b(u.Size()), left(u.Size());
   v = 0.0;
   system.step() = {c.dt, c.dt, u, v};
   // a pull sideways of all nodes, in proportion to their share of the mesh

@@ -21,6 +21,19 @@ std::vector<double> hats(const mfem::FiniteElement& element, const mfem::FiniteE
   return hat;
 }
 
+/// Of this rank's vertices, at rest.
+std::vector<double> positions(const mfem::ParFiniteElementSpace& corners, int components) {
+  std::vector<double> all(std::size_t(components) * corners.GetTrueVSize());
+  double x[3];
+  for (int vertex = 0; vertex < corners.GetNV(); ++vertex) {
+    const int own = corners.GetLocalTDofNumber(vertex);
+    if (own < 0) continue;
+    corners.GetMesh()->GetNode(vertex, x);
+    std::copy_n(x, components, &all[std::size_t(own) * components]);
+  }
+  return all;
+}
+
 }  // namespace
 
 CellLayout cell_layout(const mfem::ParFiniteElementSpace& space, const CellTables& tables,
@@ -37,8 +50,11 @@ CellLayout cell_layout(const mfem::ParFiniteElementSpace& space, const CellTable
   layout.modes = tables.modes(0);
   layout.corners = corners.GetFE(0)->GetDof();
   layout.hat = hats(*space.GetFE(0), *corners.GetFE(0));
+  layout.position = positions(corners, layout.components);
   mfem::Array<int> dofs;
   for (int cell = 0; cell < layout.cells; ++cell) {
+    mfem::Mesh& mesh = *space.GetMesh();
+    layout.elongation = std::max(layout.elongation, mesh.GetElementSize(cell, 2) / mesh.GetElementSize(cell, 1));
     space.GetElementVDofs(cell, dofs);
     for (int dof : dofs)
       layout.dofs.push_back(

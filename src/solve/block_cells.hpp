@@ -29,6 +29,8 @@ struct CellLayout {
   std::vector<PetscInt> dofs;     ///< [cell][component][node] global true dof; -1 where it is constrained
   std::vector<PetscInt> corner;   ///< [cell][corner] global number of the mesh's vertex
   std::vector<double> hat;        ///< [node][corner] the coarse functions at the nodes; 0 but in a vertex's open star
+  std::vector<double> position;   ///< [own corner][component] of the mesh's vertices [m]
+  double elongation = 1;          ///< largest ratio of a cell's longest and shortest extent
   std::vector<double> mode_size;  ///< [cell][mode] root mean square of psi in the cell
   int size() const { return components * nodes; }
 };

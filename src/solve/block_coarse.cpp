@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
 #include "base/timers.hpp"
 #include "solve/block_amg.hpp"
 #include "solve/petsc_options.hpp"
@@ -10,6 +11,9 @@ namespace titin {
 
 namespace {
 
+/// Of conjugate gradients; more save no more iterations around them. Stretched cells want more.
+constexpr int few_steps = 2, more_steps = 6;
+constexpr double elongated = 2.5;
 constexpr double at_corner = 1 - 1e-9;  // the hat of a corner, there
 
 }  // namespace
@@ -93,19 +97,41 @@ void CoarseLevel::create_matrix() {
   check(MatSetOption(A_, MAT_SYMMETRIC, PETSC_TRUE));
   check(MatSetOption(A_, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
   check(MatGetSize(A_, &size_, nullptr));
+  attach_rigid_motions();
+}
+
+/// What AMG may use to interpolate: translations and small rotations, zero where a dof is constrained.
+void CoarseLevel::attach_rigid_motions() {
+  const CellLayout& layout = blocks_.layout();
+  Vec position;
+  check(MatCreateVecs(A_, &position, nullptr));
+  PetscScalar* x;
+  check(VecGetArray(position, &x));
+  std::copy(layout.position.begin(), layout.position.end(), x);
+  check(VecRestoreArray(position, &x));
+  MatNullSpace motions;
+  check(MatNullSpaceCreateRigidBody(position, &motions));
+  check(MatSetNearNullSpace(A_, motions));
+  check(MatNullSpaceDestroy(&motions));
+  check(VecDestroy(&position));
 }
 
 void CoarseLevel::create_solver() {
   check(KSPCreate(PETSC_COMM_WORLD, &solver_));
   check(KSPSetOptionsPrefix(solver_, "coarse_"));
-  check(KSPSetType(solver_, KSPPREONLY));
   check(KSPSetOperators(solver_, A_, A_));
   PC pc;
   check(KSPGetPC(solver_, &pc));
   if (size_ <= largest_direct) {
+    check(KSPSetType(solver_, KSPPREONLY));
     check(PCSetType(pc, PCCHOLESKY));
     check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   } else {
+    check(KSPSetType(solver_, KSPCG));
+    check(KSPSetNormType(solver_, KSP_NORM_NONE));
+    check(KSPSetConvergenceTest(solver_, KSPConvergedSkip, nullptr, nullptr));
+    check(KSPSetTolerances(solver_, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
+                           max(blocks_.layout().elongation) > elongated ? more_steps : few_steps));
     set_boomeramg(pc, "coarse_");
   }
   check_options(KSPSetFromOptions(solver_));
@@ -178,7 +204,8 @@ bool CoarseLevel::correct(const float* r, float* x) {
   check(VecRestoreArrayRead(fine_, &correction));
   KSPConvergedReason reason;
   check(KSPGetConvergedReason(solver_, &reason));
-  return reason >= 0;
+  // an indefinite coarse problem stops conjugate gradients early, with a correction that is still of use
+  return reason >= 0 || reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC;
 }
 
 }  // namespace titin

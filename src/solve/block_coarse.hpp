@@ -7,8 +7,9 @@ namespace titin {
 
 class CoarseLevel {
  public:
-  /// Largest problem that is worth a factorisation; above, a V-cycle of BoomerAMG for systems.
-  static constexpr PetscInt largest_direct = 12000;
+  /// Largest problem that is worth a factorisation. Above, a few steps of conjugate gradients (FGMRES allows what is
+  /// not linear) with one V-cycle of BoomerAMG for systems.
+  static constexpr PetscInt largest_direct = 3000;
 
   CoarseLevel(const CellBlocks& blocks, const LocalDofs& dofs);  ///< Collective
   ~CoarseLevel();
@@ -24,6 +25,7 @@ class CoarseLevel {
   void number();
   void create_prolongation(const LocalDofs& dofs);
   void create_matrix();
+  void attach_rigid_motions();
   void create_solver();
   void assemble(Mat A);
   void add_batch(int batch, Mat A);

@@ -10,10 +10,8 @@ namespace titin {
 
 namespace {
 
-// Part of the spectrum that Chebyshev's polynomial damps: from a tenth of the largest eigenvalue to a little above what
-// a few steps of the power method find of it.
-constexpr double lower_end = 0.1, upper_end = 1.1;
-constexpr int steps = 3;
+constexpr int steps = 7;
+constexpr double margin = 1.05;  // of the largest eigenvalue over what a few steps of the power method find of it
 constexpr int first_power_steps = 12, power_steps = 3;  // the vector of the last time is a good start
 
 std::vector<PetscInt> touched(const CellHalo& halo) {
@@ -97,19 +95,15 @@ void Multigrid::estimate_spectrum() {
   }
 }
 
-/// x += three steps of Chebyshev's iteration on A_g d = r; r becomes the residual before the last step's d, which d_
-/// holds (Saad 2003, algorithm 12.1).
+/// x += steps of Chebyshev's iteration of the fourth kind on A_g d = r (Lottes 2023, algorithm 1): the polynomial that
+/// is best after an exact coarse correction, with no lower end of the spectrum to guess. r is used up.
 void Multigrid::smooth(Vector& x, Vector& r) {
-  const double upper = upper_end * largest_, lower = lower_end * largest_;
-  const double centre = 0.5 * (upper + lower), half = 0.5 * (upper - lower), sigma = centre / half;
-  double rho = 1 / sigma;
+  const double upper = margin * largest_;
   for (int k = 0; k < steps; ++k) {
     if (k > 0) subtract_product(d_, r);
     precondition(r, z_);
-    const double next = k > 0 ? 1 / (2 * sigma - rho) : rho;
-    const auto keep = static_cast<float>(k > 0 ? next * rho : 0);
-    const auto take = static_cast<float>(k > 0 ? 2 * next / half : 1 / centre);
-    rho = next;
+    const auto keep = static_cast<float>(k > 0 ? (2.0 * k - 1) / (2 * k + 3) : 0);
+    const auto take = static_cast<float>((8.0 * k + 4) / ((2 * k + 3) * upper));
     for (int i = 0; i < dofs_.owned(); ++i) {
       d_[i] = keep * d_[i] + take * z_[i];
       x[i] += d_[i];
@@ -129,17 +123,10 @@ bool Multigrid::apply(const double* r, double* z) {
   }
   for (int i = 0; i < n; ++i) r_[i] = fixed_[i] ? 0.0f : static_cast<float>(r[i] / scale);
   std::fill(x_.begin(), x_.end(), 0.0f);
+  const bool solved = coarse_.correct(r_.data(), x_.data());
   {
     Timers::Scope timer("smoother");
-    smooth(x_, r_);
-    subtract_product(d_, r_);
-  }
-  std::fill(d_.begin(), d_.end(), 0.0f);
-  const bool solved = coarse_.correct(r_.data(), d_.data());
-  {
-    Timers::Scope timer("smoother");
-    for (int i = 0; i < n; ++i) x_[i] += d_[i];
-    subtract_product(d_, r_);
+    subtract_product(x_, r_);
     smooth(x_, r_);
   }
   for (int i = 0; i < n; ++i) z[i] = fixed_[i] ? r[i] : scale * x_[i];

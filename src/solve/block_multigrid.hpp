@@ -1,5 +1,6 @@
-/// p-multigrid of two levels for A_g, one V-cycle: three steps of Chebyshev's iteration with vertex patches, the coarse
-/// level, three steps again. In float, but for the coarse solver.
+/// p-multigrid of two levels for A_g, one cycle: the coarse level, then a few steps of Chebyshev's iteration with
+/// vertex patches. FGMRES needs no symmetry: as many steps after the coarse level do more than half of them on both
+/// sides of it. In float, but for the coarse solver.
 #pragma once
 
 #include "solve/block_coarse.hpp"

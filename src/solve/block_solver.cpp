@@ -17,6 +17,9 @@ constexpr int restart = 50, max_iterations = 100;
 /// A solve that ran out of iterations still gives Newton's method a direction if it got so far.
 constexpr double good_enough = 0.1;
 
+/// Round-off holds the residual of forces where it stays while FGMRES's own norm falls: no more can be had.
+constexpr double still_falls = 0.5, much_less = 0.1;
+
 class ReadArray {
  public:
   explicit ReadArray(Vec v) : vec_(v) { check(VecGetArrayRead(v, &data_)); }
@@ -78,34 +81,13 @@ BlockSolver::~BlockSolver() {
 void BlockSolver::update() {
   if (!multigrid_) {
     multigrid_ = std::make_unique<Multigrid>(blocks_);
+    coupling_ = std::make_unique<Coupling>(blocks_, *multigrid_);
     schur_ = std::make_unique<SchurInverse>(blocks_, *multigrid_);
     local_.assign(multigrid_->dofs().size(), 0.0);
     forces_.assign(multigrid_->dofs().size(), 0.0);
   }
   multigrid_->update();
   if (pressures_ > 0) schur_->update();
-}
-
-/// t = B x: x at local dofs.
-void BlockSolver::divergence(int cell, const double* x, double* t) const {
-  const int n = blocks_.layout().size(), m = blocks_.layout().modes;
-  const double* B = blocks_.B(cell);
-  std::fill_n(t, m, 0.0);
-  for (int c = 0; c < n; ++c) {
-    const double value = x[multigrid_->place(cell, c)];
-    for (int l = 0; l < m; ++l) t[l] += B[l * n + c] * value;
-  }
-}
-
-/// y += B^T p
-void BlockSolver::add_gradient(int cell, const double* p, double* y) const {
-  const int n = blocks_.layout().size(), m = blocks_.layout().modes;
-  const double* B = blocks_.B(cell);
-  for (int c = 0; c < n; ++c) {
-    double sum = 0;
-    for (int l = 0; l < m; ++l) sum += B[l * n + c] * p[l];
-    y[multigrid_->place(cell, c)] += sum;
-  }
 }
 
 /// What A_g has more than K, and the couplings: y_u += B^T (p - S' B x), y_p = scale (B x - S'^-1 p).
@@ -119,14 +101,14 @@ void BlockSolver::add_coupling(const double* x, double* y) {
   std::vector<double> t(m), p(m), load(m), compressed(m);
   for (int cell = 0; cell < blocks_.layout().cells; ++cell) {
     const double *scale = blocks_.pressure_scale(cell), *q = x + displacements_ + std::size_t(cell) * m;
-    divergence(cell, local_.data(), t.data());
+    coupling_->divergence(cell, local_.data(), t.data());
     std::fill(load.begin(), load.end(), 0.0);
     std::fill(compressed.begin(), compressed.end(), 0.0);
     for (int l = 0; l < m; ++l) p[l] = scale[l] * q[l];
     add_multiply(m, blocks_.stiffness(cell), t.data(), load.data());
     add_multiply(m, blocks_.compliance(cell), p.data(), compressed.data());
     for (int l = 0; l < m; ++l) load[l] = p[l] - load[l];
-    add_gradient(cell, load.data(), forces_.data());
+    coupling_->add_gradient(cell, load.data(), forces_.data());
     for (int l = 0; l < m; ++l) y[displacements_ + std::size_t(cell) * m + l] = scale[l] * (t[l] - compressed[l]);
   }
   dofs.add(forces_.data());
@@ -167,7 +149,7 @@ bool BlockSolver::precondition(const double* r, double* z) {
   for (int l = 0; l < pressures_; ++l) divergence[l] = -r[displacements_ + l] / blocks_.pressure_scale(0)[l];
   schur_->add(divergence.data(), p.data());
   std::fill(forces_.begin(), forces_.end(), 0.0);
-  for (int cell = 0; cell < cells; ++cell) add_gradient(cell, &p[std::size_t(cell) * m], forces_.data());
+  for (int cell = 0; cell < cells; ++cell) coupling_->add_gradient(cell, &p[std::size_t(cell) * m], forces_.data());
   multigrid_->dofs().add(forces_.data());
   for (int i = 0; i < displacements_; ++i) forces_[i] = r[i] - forces_[i];
   for (int l = 0; l < pressures_; ++l) z[displacements_ + l] = p[l] / blocks_.pressure_scale(0)[l];
@@ -185,7 +167,7 @@ double BlockSolver::condensed_residual(Vec residual) {
     for (int l = 0; l < m; ++l) divergence[l] = r_p[l] / scale[l];
     std::fill(p.begin(), p.end(), 0.0);
     add_multiply(m, blocks_.stiffness(cell), divergence.data(), p.data());
-    add_gradient(cell, p.data(), forces_.data());
+    coupling_->add_gradient(cell, p.data(), forces_.data());
   }
   multigrid_->dofs().add(forces_.data());
   for (int i = 0; i < displacements_; ++i) forces_[i] += r.data()[i];
@@ -207,6 +189,7 @@ PetscErrorCode BlockSolver::test(KSP ksp, PetscInt iteration, PetscReal norm, KS
   if (iteration == 0) {
     self->size_of_b_ = norm;
     self->residual_ = 1;
+    self->best_ = self->norm_at_best_ = PETSC_INFINITY;
     self->next_test_ = self->tolerance_ * norm;
     if (norm == 0) *reason = KSP_CONVERGED_ATOL;
     return 0;
@@ -217,7 +200,11 @@ PetscErrorCode BlockSolver::test(KSP ksp, PetscInt iteration, PetscReal norm, KS
   const double condensed = self->condensed_residual(residual), wanted = self->tolerance_ * self->size_of_b_;
   self->residual_ = condensed / self->size_of_b_;
   self->next_test_ = norm * std::min(1.0, wanted / condensed);
-  if (condensed <= wanted) *reason = KSP_CONVERGED_RTOL;
+  const bool at_round_off = condensed > still_falls * self->best_ && norm < much_less * self->norm_at_best_;
+  if (condensed <= wanted || at_round_off) *reason = KSP_CONVERGED_RTOL;
+  if (condensed > still_falls * self->best_) return 0;
+  self->best_ = condensed;
+  self->norm_at_best_ = norm;
   return 0;
 }
 

@@ -39,12 +39,11 @@ class BlockSolver {
   void add_coupling(const double* x, double* y);
   bool precondition(const double* r, double* z);
   double condensed_residual(Vec r);
-  void divergence(int cell, const double* x, double* t) const;
-  void add_gradient(int cell, const double* p, double* y) const;
 
   const CellBlocks& blocks_;
   Mat K_, system_ = nullptr;
   std::unique_ptr<Multigrid> multigrid_;  // once there are numbers
+  std::unique_ptr<Coupling> coupling_;
   std::unique_ptr<SchurInverse> schur_;
   KSP ksp_ = nullptr;
   Vec in_ = nullptr, out_ = nullptr;                                                   // displacements: places only
@@ -52,6 +51,7 @@ class BlockSolver {
   std::vector<double> local_, forces_;                                                 // local dofs
   int displacements_ = 0, pressures_ = 0, iterations_ = 0;
   double tolerance_ = 0, residual_ = 0, size_of_b_ = 0, next_test_ = 0;
+  double best_ = 0, norm_at_best_ = 0;  // least residual of forces so far, and FGMRES's norm then
 };
 
 }  // namespace titin

@@ -20,7 +20,6 @@ constexpr int wanted = 30;               // iterations at most
 
 struct Case {
   double ratio, dt, fibre, aspect, wave, strain;
-  int most = wanted;
   friend std::ostream& operator<<(std::ostream& out, const Case& c) {
     return out << fmt::format("bulk/shear {:g}, dt {:g}, fibres {:g}, aspect {:g}, wave {:g}, strain {:g}", c.ratio,
                               c.dt, c.fibre, c.aspect, c.wave, c.strain);
@@ -60,18 +59,28 @@ struct Solution {
   mfem::Vector x;
 };
 
+/// Lengthened and sheared, and swollen by the pressure that holds against fibres and matrix sideways: without it the
+/// state is far from any equilibrium, and its tangent indefinite.
+mfem::Vector deformed(mfem::ParFiniteElementSpace& space, const Case& c) {
+  const double s = c.strain, lateral = 1 / std::sqrt(1 + s);
+  const double stretch = std::hypot(lateral * 0.342 + s * 0.94, (1 + s) * 0.94);
+  const double of_fibres = c.fibre * stretch * std::max(0.0, stretch - 1);
+  const double of_matrix = (2 * lateral * lateral + (1 + s) * (1 + s)) / 3 - lateral * lateral;
+  const double size = std::cbrt(1 + (of_fibres / 3 + of_matrix) / c.ratio);  // p = kappa (J - 1), nearly
+  return interpolate(space, [=](const mfem::Vector& x, mfem::Vector& u) {
+    u.SetSize(3);
+    u(0) = size * (lateral * x(0) + s * x(2)) - x(0);
+    u(1) = size * lateral * x(1) - x(1);
+    u(2) = size * (1 + s) * x(2) - x(2);
+  });
+}
+
 Solution solve(const Case& c, const std::string& method, int cells) {
   Parts parts = read_cube(c, method, cells);
   const LinearConfig config = parts.muscle.newton.linear;
   Muscle model(std::move(parts.named), std::move(parts.muscle));
   MuscleSystem& system = model.system();
-  mfem::Vector u = interpolate(system.space(), [s = c.strain](const mfem::Vector& x, mfem::Vector& w) {
-    const double lateral = 1 / std::sqrt(1 + s) - 1;  // lengthened and sheared, the volume kept
-    w.SetSize(3);
-    w(0) = lateral * x(0) + s * x(2);
-    w(1) = lateral * x(1);
-    w(2) = s * x(2);
-  });
+  mfem::Vector u = deformed(system.space(), c);
   mfem::Vector v = u;
   v = 0.0;
   system.step() = {c.dt, c.dt, u, v};
@@ -100,22 +109,32 @@ Solution solve(const Case& c, const std::string& method, int cells) {
   return solution;
 }
 
+/// Every regime: bulk over shear, step, fibres (strained: slack ones have no stiffness), shape of the cells.
+std::vector<Case> all_regimes() {
+  std::vector<Case> all;
+  for (double ratio : {1e2, 1e3, 1e4})
+    for (double dt : {0.0, 1e-2, 1e-3, 1e-4})
+      for (double fibre : {0.0, 20.0})
+        for (auto [aspect, wave] : {std::pair{1.0, 0.0}, {1.0, 0.04}, {5.0, 0.0}})
+          all.push_back({ratio, dt, fibre, aspect, wave, fibre > 0 ? 0.1 : 0.0});
+  return all;
+}
+
 class BlockIterations : public ::testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(AllRegimes, BlockIterations,
-                         ::testing::Values(Case{1e2, 0, 0, 1, 0, 0}, Case{1e3, 0, 0, 1, 0, 0}, Case{1e4, 0, 0, 1, 0, 0},
-                                           Case{1e3, 1e-2, 0, 1, 0, 0}, Case{1e3, 1e-3, 0, 1, 0, 0},
-                                           Case{1e3, 1e-4, 0, 1, 0, 0}, Case{1e4, 1e-4, 0, 1, 0, 0},
-                                           Case{1e4, 1e-3, 0, 1, 0, 0.1}, Case{1e3, 0, 20, 1, 0, 0.1},
-                                           Case{1e3, 1e-3, 20, 1, 0, 0.1}, Case{1e4, 1e-4, 20, 1, 0, 0.1},
-                                           Case{1e3, 1e-3, 0, 1, 0.04, 0}, Case{1e3, 0, 0, 5, 0, 0},
-                                           Case{1e4, 1e-3, 20, 5, 0, 0.1, 36}, Case{1e2, 1e-4, 20, 5, 0, 0.1}));
+INSTANTIATE_TEST_SUITE_P(AllRegimes, BlockIterations, ::testing::ValuesIn(all_regimes()));
 
 TEST_P(BlockIterations, stay_few) {
   const Solution solution = solve(GetParam(), "block", 5);
-  EXPECT_LE(solution.iterations, GetParam().most) << GetParam();
+  EXPECT_LE(solution.iterations, wanted) << GetParam();
   EXPECT_LE(solution.residual, 1.01 * tolerance) << GetParam();
   RecordProperty("iterations", solution.iterations);
   if (is_root()) fmt::print("{:3} iterations: {}\n", solution.iterations, fmt::streamed(GetParam()));
+}
+
+/// Large enough for a coarse level that is not factorised.
+TEST(LinearSolvers, take_few_iterations_with_an_iterative_coarse_level) {
+  for (const Case& c : {Case{1e3, 1e-3, 0, 1, 0, 0}, Case{1e3, 0, 20, 1, 0, 0.1}})
+    EXPECT_LE(solve(c, "block", 10).iterations, wanted) << c;
 }
 
 TEST(LinearSolvers, find_the_same_solution) {
