@@ -95,10 +95,11 @@ Wrapper read_maxwell(Section s, const Term* term, TermOptions options) {
   MaxwellFlow flow;
   flow.bind(s);
   if (!term) return {};
-  if (term->needs_second_fibre() || term->uses().has_rate() || !term->stores_energy())
+  const bool along_fibres = term->needs_fibre() || term->needs_second_fibre();
+  const bool both_families = term->needs_fibre() && term->needs_second_fibre();
+  if (both_families || term->uses().has_rate() || !term->stores_energy())
     s.error("", "the spring of a Maxwell branch is an isotropic law, or one of a single fibre that stores energy",
             "take prony for other laws");
-  const bool along_fibres = term->needs_fibre();
   return [=](std::shared_ptr<const Response> spring) -> std::shared_ptr<const Response> {
     if (along_fibres) return std::make_shared<FibreMaxwellResponse>(flow.viscosity, options, std::move(spring));
     return std::make_shared<MaxwellResponse>(flow, std::move(spring));

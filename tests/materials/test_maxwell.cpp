@@ -208,6 +208,22 @@ TEST(FibreBranch, RunsAlongTheMaterialsFibres) {
   EXPECT_LT(distance(P, titin::testing::stress(*m, own)), 1e-12);
 }
 
+/// The same branch along the second family relaxes as along the first, when the two directions are exchanged.
+TEST(FibreBranch, RunsAlongEitherFamily) {
+  const std::string second = std::string(fibre_branch) + ", family = \"second\"";
+  const auto run = [](const MaterialPointer& m) {
+    RememberingPoint point(m);
+    point.step(general_F_old, 0.5);
+    return point.step(general_F, 0.5);
+  };
+  const char* exchanged =
+      "density = \"1000 kg/m^3\"\nfibre = [0.36, -0.8, 0]\nsecond_fibre = [0.8, 0.36, 0.48]\n"
+      "volumetric = { law = \"simo\", bulk_modulus = \"1 MPa\" }\n[materials.m.terms]\nt = { law = \"goh\", ";
+  const Mat3 P = run(material_of("goh", fibre_branch));
+  EXPECT_GT(size_of(P), 0);
+  EXPECT_LE(distance(run(material(exchanged + second + " }\n")), P), 1e-14 * size_of(P));
+}
+
 TEST(FibreBranch, TangentIsExactAndStepsMayBeHuge) {
   for (const char* measure : {"", "fibre_invariants = \"full\"\n"})
     for (double dt : {1e-6, 0.5, 1e6}) {
