@@ -32,6 +32,16 @@ class RememberingPoint {
     take();
     return P;
   }
+  /// All that a point carries from one step to the next.
+  struct Saved {
+    std::vector<double> history;
+    Mat3 F;
+  };
+  Saved saved() const { return {old_, point_.F_old}; }
+  void restore(const Saved& saved) {
+    old_ = saved.history;
+    point_.F_old = saved.F;
+  }
   double stored() {
     double W;
     material_->term_energy(0, input(), &W);
