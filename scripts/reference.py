@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Writes docs/reference/ from what the program says of itself: keys.md and materials.md.
+"""Writes what follows from what the program says of itself: docs/reference/ (keys.md, materials.md, and scene.schema.json for
+editors) and scripts/completion.bash.
 
-scripts/reference.py            writes the pages
+scripts/reference.py            writes the files
 scripts/reference.py --check    fails if they are not what the program says (a test runs this)
 
 --titin PROGRAM names the program (default: build/bin/titin).
@@ -11,6 +12,9 @@ import json
 import pathlib
 import subprocess
 import sys
+
+from completion import completion_of
+from schema import schema_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGES = ROOT / "docs" / "reference"
@@ -89,19 +93,21 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--titin", default=str(ROOT / "build" / "bin" / "titin"))
     arguments = parser.parse_args()
-    pages = {"keys.md": keys_page(ask(arguments.titin, "keys")),
-             "materials.md": materials_page(ask(arguments.titin, "materials"))}
-    stale = []
-    for name, text in pages.items():
-        path = PAGES / name
-        if not path.exists() or path.read_text() != text:
-            stale.append(name)
-        if not arguments.check:
-            PAGES.mkdir(parents=True, exist_ok=True)
+    keys, laws = ask(arguments.titin, "keys"), ask(arguments.titin, "materials")
+    files = {
+        PAGES / "keys.md": keys_page(keys),
+        PAGES / "materials.md": materials_page(laws),
+        PAGES / "scene.schema.json": json.dumps(schema_of(keys, laws), indent=1, ensure_ascii=False) + "\n",
+        ROOT / "scripts" / "completion.bash": completion_of(arguments.titin, keys, laws),
+    }
+    stale = [str(path.relative_to(ROOT)) for path, text in files.items() if not path.exists() or path.read_text() != text]
+    if not arguments.check:
+        PAGES.mkdir(parents=True, exist_ok=True)
+        for path, text in files.items():
             path.write_text(text)
     if arguments.check and stale:
-        sys.exit(f"docs/reference/{', '.join(stale)} is not what the program says; run scripts/reference.py")
-    print(f"docs/reference: {'in order' if arguments.check else 'written'}")
+        sys.exit(f"{', '.join(stale)}: not what the program says; run scripts/reference.py")
+    print(f"{len(files)} files {'in order' if arguments.check else 'written'}")
 
 
 if __name__ == "__main__":

@@ -211,7 +211,9 @@ void SceneText::ask(const std::string& table, std::string_view name) {
 }
 
 void SceneText::record(KeyRecord record) {
-  const auto same = [&](const KeyRecord& r) { return r.path == record.path; };
+  const auto same = [&](const KeyRecord& r) {  // a key and a table may have one name: wall = true, [wall]
+    return r.path == record.path && (r.type == "table") == (record.type == "table");
+  };
   if (std::none_of(records.begin(), records.end(), same)) records.push_back(std::move(record));
 }
 

@@ -78,8 +78,9 @@ std::vector<KeyRecord> scene_keys() {
   SceneConfig config;
   config.bind(keys.root());
   std::vector<KeyRecord> list = keys.keys();
-  std::set<std::string> seen;  // formulations share keys
-  std::erase_if(list, [&](const KeyRecord& key) { return !seen.insert(key.path).second; });
+  std::set<std::pair<std::string, bool>>
+      seen;  // formulations share keys; wall is a key of one and a table of the other
+  std::erase_if(list, [&](const KeyRecord& key) { return !seen.insert({key.path, key.type == "table"}).second; });
   return list;
 }
 

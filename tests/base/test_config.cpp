@@ -340,6 +340,17 @@ TEST(Config, ListsItsKeys) {
   EXPECT_EQ(keys.at("mesh.cells").default_value, "1, 1, 1");
 }
 
+TEST(Config, ListsAKeyAndATableOfOneName) {
+  Config config = Config::describing();
+  bool wall = false;
+  config.root().section("wall", "a plane");
+  config.root().read("wall", wall, {});
+  config.root().read("wall", wall, {});
+  Messages types;
+  for (const KeyRecord& key : config.keys()) types.push_back(key.path + ": " + key.type);
+  EXPECT_EQ(types, (Messages{"wall: table", "wall: true or false"}));
+}
+
 TEST(Config, WalksNamedTablesInFileOrder) {
   Config config("[b.z]\n[b.a]\n", "block.toml", {"b.c.x=1"});
   Messages names;
