@@ -1,5 +1,5 @@
-/// The driver: `titin run | check | materials | keys | help`. Exit codes: 0 finished, 1 input error, 2 did not
-/// converge, 3 stopped by a signal, 4 internal error, or output that cannot be written.
+/// The driver: `titin run | check | inspect | materials | keys | help`. Exit codes: 0 finished, 1 input error, 2 did
+/// not converge, 3 stopped by a signal, 4 internal error, or output that cannot be written.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <new>
@@ -22,16 +22,17 @@ constexpr int input_error = 1, internal_error = 4;
 struct Driver {
   CLI::App app{"Titin: solid dynamics of soft tissue and of shocks.", "titin"};
   RunOptions options;
-  std::string prefix, law;
+  std::string prefix, law, folder;
   bool json = false, quiet = false;
   int verbosity = 0;
-  CLI::App *run = nullptr, *check = nullptr, *materials = nullptr, *keys = nullptr, *help = nullptr;
+  CLI::App *run = nullptr, *check = nullptr, *inspect = nullptr, *materials = nullptr, *keys = nullptr, *help = nullptr;
 
   Driver() {
     app.set_version_flag("--version", fmt::format("Titin {} ({})", version(), commit()));
     app.require_subcommand(1);
     run = app.add_subcommand("run", "Run a scene");
     check = app.add_subcommand("check", "Read a scene and say what it would be; write nothing");
+    inspect = app.add_subcommand("inspect", "Say what is in the folder of a run");
     materials = app.add_subcommand("materials", "List the material laws, or tell all of one");
     keys = app.add_subcommand("keys", "List what a scene may say");
     help = app.add_subcommand("help", "Print this");
@@ -43,6 +44,7 @@ struct Driver {
     run->add_flag("--overwrite", options.overwrite, "Replace an earlier run in the output folder");
     run->add_flag("-v", verbosity, "Say more; -vv: all");
     run->add_flag("-q", quiet, "Say only warnings and errors");
+    inspect->add_option("RUNDIR", folder, "Folder of a run, such as results/block")->required();
     materials->add_option("NAME", law, "Name of a law");
     keys->add_option("PREFIX", prefix, "Only keys that begin so, such as time or boundary.");
     for (CLI::App* list : {materials, keys}) list->add_flag("--json", json, "As JSON");
@@ -55,6 +57,7 @@ struct Driver {
                        : verbosity == 1 ? Level::verbose
                                         : Level::debug);
     if (help->parsed()) logging::write(Level::quiet, Driver().app.help());  // of all, not of "help"
+    if (inspect->parsed()) print_run(folder);
     if (materials->parsed()) print_materials(law, json);
     if (keys->parsed()) print_keys(prefix, json);
     if (check->parsed()) check_scene(options);

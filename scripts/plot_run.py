@@ -12,16 +12,10 @@ import tomllib
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pyvista as pv
-from plot_style import COLOUR_MAP, FAINT, INK, STYLE, draw_curves, prefixed
+from body import limits, render
+from plot_style import COLOUR_MAP, FAINT, STYLE, draw_curves, prefixed_unit
+from saved_fields import SavedFields, choose_field, show, title_and_unit
 
-# Fields worth a picture, best first; what each is called in it.
-FIELDS = {
-    "fibre_stretch": "fibre stretch",
-    "pressure": "pressure",
-    "displacement": "displacement",
-    "velocity": "speed",
-}
 SMALL = 0.01  # curves below this part of the largest one are left out
 
 
@@ -71,7 +65,7 @@ def reactions(history):
     """The force that each held boundary puts on the body; a component that mirrors one before it is left out."""
     found = {}
     for column, values in history.items():
-        match = re.fullmatch(r"reaction_(.+)_([xyz]) \[N\]", column)
+        match = re.fullmatch(r"(?:reaction|force)_(.+)_([xyz]) \[N(?:/m)?\]", column)
         if match:
             found[f"{match.group(1)}, {match.group(2)}"] = values
     largest = max((np.max(np.abs(v)) for v in found.values()), default=0)
@@ -84,10 +78,15 @@ def reactions(history):
     return kept
 
 
+def per_metre(history):
+    """"/m" for a plane body, whose forces and energies are those of a thickness of 1 m."""
+    return "/m" if any(re.search(r" \[[NJ]/m\]$", column) for column in history) else ""
+
+
 def energies(history):
     found = {}
     for column, values in history.items():
-        match = re.fullmatch(r"(energy|work)_(.+) \[J\]", column)
+        match = re.fullmatch(r"(energy|work)_(.+) \[J(?:/m)?\]", column)
         if match:
             kind, name = match.group(1), match.group(2).replace("_", " ")
             found[name if kind == "energy" else f"work of {name}"] = values
@@ -95,94 +94,30 @@ def energies(history):
     return {name: v for name, v in found.items() if np.max(np.abs(v)) > SMALL * largest}
 
 
-# ---- the body --------------------------------------------------------------------------------------------------------
-
-
-def read_body(folder, time):
-    """The mesh with its fields at the saved time nearest to `time` (None: the last), and that time."""
-    found = sorted(folder.rglob("*.pvd"))
-    if not found:
-        return None, None
-    reader = pv.PVDReader(str(found[0]))
-    saved = np.array(reader.time_values)
-    at = saved[-1] if time is None else saved[np.argmin(np.abs(saved - time))]
-    reader.set_active_time_value(at)
-    # Each cell is written with nodes of its own: merge them, so that faces inside the body are known to be inside.
-    return reader.read().combine().clean(tolerance=1e-9), at
-
-
-def field_of(grid, wanted):
-    """Adds the array "shown" and returns what it is called; a vector becomes its length."""
-    name = wanted or next((f for f in FIELDS if f in grid.point_data), None) or next(iter(grid.point_data), None)
-    if name not in grid.point_data:
-        fail(f"there is no field '{name}'; there are {', '.join(sorted(grid.point_data))}")
-    values = np.asarray(grid.point_data[name])
-    grid.point_data["shown"] = values if values.ndim == 1 else np.linalg.norm(values, axis=1)
-    return name
-
-
-def edges_of_cells(surface):
-    """Lines on a tessellated surface where two cells, or two faces of one, meet."""
-    triangles = surface.regular_faces
-    owner = np.asarray(surface.cell_data["vtkOriginalCellIds"])
-    normals = np.asarray(surface.compute_normals(cell_normals=True, point_normals=False, auto_orient_normals=False,
-                                                 consistent_normals=False, split_vertices=False).cell_data["Normals"])  # fmt: skip
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    triangle = np.tile(np.arange(len(triangles)), 3)
-    order = np.lexsort((sides[:, 1], sides[:, 0]))
-    sides, triangle = sides[order], triangle[order]
-    twins = np.flatnonzero(np.all(sides[:-1] == sides[1:], axis=1))
-    a, b = triangle[twins], triangle[twins + 1]
-    seen = (owner[a] != owner[b]) | (np.einsum("ij,ij->i", normals[a], normals[b]) < 0.7)
-    lines = sides[twins[seen]]
-    return pv.PolyData(surface.points, lines=np.hstack([np.full((len(lines), 1), 2), lines]).ravel())
-
-
-def render(grid, clim, warp, size=(1500, 1150)):
-    """The deformed body as an RGBA array, with the outline of the body at rest."""
-    at_rest = grid.extract_surface(nonlinear_subdivision=2, algorithm="dataset_surface").triangulate()
-    deformed = grid.warp_by_vector("displacement", factor=warp) if "displacement" in grid.point_data else grid
-    surface = deformed.extract_surface(nonlinear_subdivision=3, algorithm="dataset_surface").triangulate().clean(tolerance=1e-8)
-    plotter = pv.Plotter(off_screen=True, window_size=size)
-    plotter.set_background("white")
-    plotter.enable_anti_aliasing("ssaa")
-    plotter.add_mesh(at_rest.extract_feature_edges(40, boundary_edges=False), color="#8a93a3", line_width=2)
-    plotter.add_mesh(surface, scalars="shown", cmap=COLOUR_MAP, clim=clim, show_scalar_bar=False, smooth_shading=True,
-                     split_sharp_edges=True, ambient=0.55, diffuse=0.52, specular=0.06, specular_power=12)  # fmt: skip
-    plotter.add_mesh(edges_of_cells(surface), color=INK, line_width=1.8, opacity=0.5)
-    plotter.enable_parallel_projection()
-    plotter.view_vector((-0.5, -1.0, 0.5), (0, 0, 1))
-    plotter.reset_camera()
-    plotter.camera.zoom(1.25)
-    image = plotter.screenshot(return_img=True, transparent_background=True)
-    plotter.close()
-    rows, columns = np.nonzero(image[:, :, 3])
-    return image[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
-
-
-def unit_of_field(name):
-    return {"pressure": "Pa", "displacement": "m", "velocity": "m/s", "fibre_rate": "1/s", "cauchy_stress": "Pa"}.get(name, "")
+# ---- the body ----------------------------------------------------------------------------------------------------------
 
 
 def draw_body(figure, axes, folder, options):
     axes.axis("off")
-    grid, time = read_body(folder, options.time)
-    if grid is None:
+    saved = SavedFields(folder)
+    if not len(saved.times):
         axes.text(0.5, 0.5, "no fields were saved", ha="center", color=FAINT)
         return
-    name = field_of(grid, options.field)
-    factor, prefix = prefixed([grid.point_data["shown"]]) if unit_of_field(name) else (1, "")
-    grid.point_data["shown"] = grid.point_data["shown"] * factor
-    low, high = float(np.min(grid.point_data["shown"])), float(np.max(grid.point_data["shown"]))
-    if high - low < 1e-9 * max(abs(low), abs(high), 1e-30):
-        low, high = low - 0.5, high + 0.5
+    at = saved.nearest(options.time)
+    grid = saved.read(at)
+    array = choose_field(grid, options.field)
+    if array is None:
+        fail(f"there is no field '{options.field}'; there are {', '.join(sorted({*grid.point_data, *grid.cell_data}))}")
+    title, unit = title_and_unit(array)
+    factor, unit = prefixed_unit([show(grid, array)], unit)
+    values = show(grid, array, factor=factor)
+    low, high = limits(float(np.min(values)), float(np.max(values)))
     axes.imshow(render(grid, (low, high), options.warp))
     times = f", displacements times {options.warp:g}" if options.warp != 1 else ""
-    axes.set_title(f"t = {time:.4g} s{times}", pad=10)
-    unit = f" [{prefix}{unit_of_field(name)}]" if unit_of_field(name) else ""
+    axes.set_title(f"t = {saved.times[at]:.4g} s{times}", pad=10)
     colours = plt.cm.ScalarMappable(plt.Normalize(low, high), COLOUR_MAP)
     bar = figure.colorbar(colours, ax=axes, orientation="horizontal", fraction=0.035, pad=0.05, aspect=32, shrink=0.72)
-    bar.set_label(FIELDS.get(name, name.replace("_", " ")) + unit)
+    bar.set_label(title + (f" [{unit}]" if unit else ""))
     bar.outline.set_visible(False)
     bar.ax.tick_params(length=0)
 
@@ -210,8 +145,8 @@ def main():
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.08)
     left, right = figure.subfigures(1, 2, width_ratios=[1.0, 1.15])
     panels = [
-        (reactions(history), "Force of the held boundaries", "N"),
-        (energies(history), "Energy and work", "J"),
+        (reactions(history), "Force of the held boundaries", "N" + per_metre(history)),
+        (energies(history), "Energy and work", "J" + per_metre(history)),
     ]
     panels = [panel for panel in panels if panel[0]]
     if panels:

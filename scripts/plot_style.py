@@ -1,4 +1,6 @@
 """How our pictures look: colours, type, and curves with their names at their ends."""
+import re
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -25,6 +27,12 @@ def prefixed(values):
         if largest * factor >= 1:
             return factor, prefix
     return 1, ""
+
+
+def prefixed_unit(values, unit):
+    """The same with the unit: only where it begins with one that takes a prefix alone, so neither "m^3" nor "kg/m^3"."""
+    factor, prefix = prefixed(values) if re.match(r"(N|J|W|Pa|m|s)(?![\w^])", unit) else (1, "")
+    return factor, prefix + unit
 
 
 def spread(wanted, gap):

@@ -8,6 +8,7 @@
 
 #include "base/log.hpp"
 #include "base/words.hpp"
+#include "io/run_contents.hpp"
 #include "materials/registry.hpp"
 #include "scene/scene.hpp"
 
@@ -105,6 +106,21 @@ void print_materials(const std::string& name, bool json) {
   throw InputError({fmt::format("there is no law {}; {}", in_quotes(name),
                                 meant.empty() ? fmt::format("there are: {}", fmt::join(names, ", "))
                                               : fmt::format("did you mean \"{}\"?", meant))});
+}
+
+void print_run(const std::string& folder) {
+  const RunContents contents = read_run_contents(folder);
+  Rows rows;
+  for (const auto& [what, text] : contents.facts) rows.push_back({what, text});
+  print(fmt::format("{}: a run of Titin", printable(folder)));
+  print_table(rows);
+  if (contents.history.rows == 0) return;
+  rows = {{"column of history.csv", "first", "last", "least", "largest"}};
+  for (const HistoryColumn& c : contents.history.columns)
+    rows.push_back({c.name, fmt::format("{:.6g}", c.first), fmt::format("{:.6g}", c.last),
+                    fmt::format("{:.6g}", c.least), fmt::format("{:.6g}", c.largest)});
+  print("");
+  print_table(rows);
 }
 
 }  // namespace titin
