@@ -59,6 +59,15 @@ int ranks(MPI_Comm comm) {
 
 bool is_root() { return rank() == 0; }
 
+int ranks_on_node() {
+  if (!running()) return 1;
+  MPI_Comm node;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  const int count = ranks(node);
+  MPI_Comm_free(&node);
+  return count;
+}
+
 double sum(double x, MPI_Comm comm) { return reduce(x, MPI_DOUBLE, MPI_SUM, comm); }
 double max(double x, MPI_Comm comm) { return reduce(x, MPI_DOUBLE, MPI_MAX, comm); }
 double min(double x, MPI_Comm comm) { return reduce(x, MPI_DOUBLE, MPI_MIN, comm); }

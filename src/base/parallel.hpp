@@ -23,6 +23,7 @@ class MpiSession {
 int rank(MPI_Comm comm = MPI_COMM_WORLD);   // not collective
 int ranks(MPI_Comm comm = MPI_COMM_WORLD);  // not collective
 bool is_root();                             // rank 0 of the world; not collective
+int ranks_on_node();                        ///< of the world, that share this one's memory
 
 double sum(double x, MPI_Comm comm = MPI_COMM_WORLD);
 double max(double x, MPI_Comm comm = MPI_COMM_WORLD);

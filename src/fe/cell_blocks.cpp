@@ -94,7 +94,8 @@ TangentCells::TangentCells(const mfem::ParFiniteElementSpace& space, const CellT
     }
     gradient_square_.push_back(gradients);
     mass_square_.push_back(functions);
-    size_.push_back(std::cbrt(volume));
+    volume_.push_back(volume);
+    size_.push_back(std::pow(space.GetParMesh()->GetElementVolume(cell), 1.0 / tables.dimension()));
   }
 }
 
@@ -102,11 +103,10 @@ void TangentCells::set(int cell, const ThreeField& kernel, const Material& mater
   set_divergence(cell, kernel);
   set_stiffness(cell, kernel, material);
   // lumped in proportion to the diagonal, positive for all elements (Hinton, Rock, Zienkiewicz 1976)
-  const double volume = size_[cell] * size_[cell] * size_[cell];
   std::fill(inertia_.begin(), inertia_.end(), 0.0);
   for (int q = 0; q < tables_.points(cell) && mass > 0; ++q)
     for (int a = 0; a < tables_.nodes(cell); ++a)
-      inertia_[a] += mass * volume / mass_square_[cell] * tables_.weight(cell, q) * tables_.shape(cell, q)[a] *
+      inertia_[a] += mass * volume_[cell] / mass_square_[cell] * tables_.weight(cell, q) * tables_.shape(cell, q)[a] *
                      tables_.shape(cell, q)[a];
   CellTangent tangent;
   tangent.K = K;
@@ -123,17 +123,18 @@ void TangentCells::set(int cell, const ThreeField& kernel, const Material& mater
 /// B_l = int psi_l cof F : Grad N
 void TangentCells::set_divergence(int cell, const ThreeField& kernel) {
   const int nodes = tables_.nodes(cell), padded = tables_.padded(cell), modes = tables_.modes(cell);
+  const int components = tables_.dimension();
   std::fill(B_.begin(), B_.end(), 0.0);
-  std::vector<double> row(3 * nodes);
+  std::vector<double> row(components * nodes);
   for (int q = 0; q < tables_.points(cell); ++q) {
     const Mat3 cof = cofactor(kernel.F()[q]);
     const double* G = kernel.gradients() + 3 * q * padded;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < components; ++i)
       for (int a = 0; a < nodes; ++a)
         row[i * nodes + a] = cof[3 * i] * G[a] + cof[3 * i + 1] * G[padded + a] + cof[3 * i + 2] * G[2 * padded + a];
     for (int l = 0; l < modes; ++l) {
       const double factor = tables_.weight(cell, q) * tables_.mode(cell, q)[l];
-      for (int c = 0; c < 3 * nodes; ++c) B_[l * 3 * nodes + c] += factor * row[c];
+      for (int c = 0; c < components * nodes; ++c) B_[l * components * nodes + c] += factor * row[c];
     }
   }
 }
@@ -160,14 +161,14 @@ void TangentCells::set_stiffness(int cell, const ThreeField& kernel, const Mater
 
 /// That of the vector Laplacian with the trace of A = K - B^T S B - inertia.
 double TangentCells::shear_modulus(int cell, const double* K, double mass) const {
-  const int n = 3 * tables_.nodes(cell), modes = tables_.modes(cell);
-  double trace = -3 * mass * mass_square_[cell];
+  const int components = tables_.dimension(), n = tables_.values(cell), modes = tables_.modes(cell);
+  double trace = -components * mass * mass_square_[cell];
   for (int c = 0; c < n; ++c) {
     trace += K[c * n + c];
     for (int l = 0; l < modes; ++l)
       for (int k = 0; k < modes; ++k) trace -= B_[l * n + c] * S_[l * modes + k] * B_[k * n + c];
   }
-  return std::max(trace / (3 * gradient_square_[cell]), softest_part * least_bulk_);
+  return std::max(trace / (components * gradient_square_[cell]), softest_part * least_bulk_);
 }
 
 }  // namespace titin

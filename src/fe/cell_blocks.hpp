@@ -30,7 +30,7 @@ class TangentCells {
   const CellTables& tables_;
   CellBlocks blocks_;
   std::vector<double> gradient_square_, mass_square_;  // [cell] sum_a int |Grad N_a|^2 [m], sum_a int N_a^2 [m^3]
-  std::vector<double> size_;                           // [cell] edge length [m]
+  std::vector<double> volume_, size_;                  // [cell] [m^3], of an edge [m]
   double least_bulk_ = 0;
   std::vector<double> B_, S_, inertia_;  // of the cell at hand
 };

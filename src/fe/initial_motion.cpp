@@ -1,5 +1,7 @@
 #include "fe/initial_motion.hpp"
 
+#include <memory>
+
 #include "fe/muscle_system.hpp"
 #include "mesh/plane_vector.hpp"
 
@@ -36,6 +38,55 @@ mfem::Vector InitialMotion::at_dofs(mfem::ParFiniteElementSpace& space) const {
   return v;
 }
 
+namespace {
+
+/// The mass matrix where displacements are free, and on rails, whose carriers stand for their plates and loads.
+class ConstrainedMass : public mfem::Operator {
+ public:
+  ConstrainedMass(mfem::ParBilinearForm& form, const Constraints& constraints)
+      : Operator(form.ParFESpace()->GetTrueVSize()),
+        M_(form.ParallelAssemble()),
+        constraints_(constraints),
+        diagonal_(Height()) {
+    M_->GetDiag(diagonal_);
+    constraints_.condense(diagonal_);
+    add_loads([this](int carrier, double mass) { diagonal_(carrier) += mass; });
+    for (double& entry : diagonal_) entry = entry > 0 ? entry : 1;
+  }
+  void Mult(const mfem::Vector& x, mfem::Vector& y) const override {
+    mfem::Vector all(x);
+    constraints_.rails().spread(all);
+    M_->Mult(all, y);
+    constraints_.condense(y);
+    add_loads([&](int carrier, double mass) { y(carrier) += mass * x(carrier); });
+  }
+  const mfem::Vector& diagonal() const { return diagonal_; }
+
+ private:
+  template <class Visit>
+  void add_loads(Visit visit) const {
+    for (const Rails::Rail& rail : constraints_.rails().list())
+      if (rail.carrier >= 0) visit(rail.carrier, rail.config->mass);
+  }
+  std::unique_ptr<mfem::HypreParMatrix> M_;
+  const Constraints& constraints_;
+  mfem::Vector diagonal_;
+};
+
+class Scaling : public mfem::Solver {
+ public:
+  explicit Scaling(const mfem::Vector& diagonal) : Solver(diagonal.Size()), diagonal_(diagonal) {}
+  void SetOperator(const mfem::Operator&) override {}
+  void Mult(const mfem::Vector& x, mfem::Vector& y) const override {
+    for (int i = 0; i < x.Size(); ++i) y(i) = x(i) / diagonal_(i);
+  }
+
+ private:
+  const mfem::Vector& diagonal_;
+};
+
+}  // namespace
+
 mfem::Vector initial_acceleration(MuscleSystem& system, double thickness, const mfem::Vector& residual) {
   mfem::ParFiniteElementSpace& space = system.space();
   mfem::Vector density(space.GetParMesh()->attributes.Max());
@@ -47,18 +98,18 @@ mfem::Vector initial_acceleration(MuscleSystem& system, double thickness, const 
   form.AddDomainIntegrator(new mfem::VectorMassIntegrator(of_region));
   form.Assemble();
   form.Finalize();
+  const ConstrainedMass M(form, system.constraints());
+  Scaling scaling(M.diagonal());
+  mfem::CGSolver solver(space.GetComm());
+  solver.SetRelTol(mass_tolerance);
+  solver.SetMaxIter(mass_iterations);
+  solver.SetPreconditioner(scaling);
+  solver.SetOperator(M);
   mfem::Vector a(residual.Size()), b(residual);
   a = 0.0;
   b.Neg();
-  for (int dof : system.constraints().dofs()) b(dof) = 0;
-  mfem::HypreParMatrix M;
-  form.FormSystemMatrix(system.constraints().dofs(), M);
-  mfem::HypreDiagScale scaling(M);
-  mfem::HyprePCG solver(M);
-  solver.SetTol(mass_tolerance);
-  solver.SetMaxIter(mass_iterations);
-  solver.SetPreconditioner(scaling);
   solver.Mult(b, a);
+  system.constraints().rails().spread(a);
   return a;
 }
 

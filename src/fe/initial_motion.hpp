@@ -1,6 +1,6 @@
 /// How a body moves when a run begins: as a rigid one, with its forces at once.
 ///
-///   v_0(X) = velocity + spin x (X - centre),   M a_0 + f(u_0) = 0 at free dofs, a_0 = 0 at the others
+///   v_0(X) = velocity + spin x (X - centre),   M a_0 + f(u_0) = 0 at free dofs, a_0 = 0 where displacements are given
 #pragma once
 
 #include <array>

@@ -25,8 +25,8 @@ void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
   on = read_boundaries(s, name, mesh);
   s.read("clamp", clamp, {.doc = "hold all components at zero displacement"});
   Section d = s.section("displacement", "prescribed components; a component that is not named is free");
+  const char* component[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
-    const char* component[] = {"x", "y", "z"};
     d.read(component[i], displacement[i], {.unit = "m", .doc = "displacement, constant or in time"});
     prescribed[i] = clamp || d.has(component[i]);
     if (d.has(component[i]) && mesh.mesh && i >= mesh.mesh->Dimension())
@@ -40,6 +40,10 @@ void BoundaryConfig::bind(Section& s, const NamedMesh& mesh) {
   s.read("pressure", pressure,
          {.unit = "Pa", .doc = "follower pressure on the deformed surface, positive when it pushes"});
   support.bind(s);
+  rail.bind(s, mesh.mesh ? mesh.mesh->Dimension() : 0);
+  if (rail.given() && prescribed[rail.axis])
+    s.error("rail", fmt::format("the displacement along {} is given too", component[rail.axis]),
+            clamp ? "hold the other components by displacement, not by clamp" : "drop one of them");
 }
 
 Constraints::Constraints(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh,
@@ -54,7 +58,10 @@ Constraints::Constraints(const std::vector<BoundaryConfig>& boundaries, const Na
       if (boundaries[b].prescribed[i])
         for (int dof : dofs) constrained[dof] = &boundaries[b].displacement[i];
     }
+    const RailConfig& rail = boundaries[b].rail;
+    if (rail.given()) rails_.add(rail, static_cast<int>(b), boundary_dofs_[b][rail.axis]);
   }
+  rails_.finish(space);
   mfem::Vector marker(space.GetTrueVSize()), local_marker(space.GetVSize());
   marker = 0.0;
   for (const auto& [dof, table] : constrained) {
@@ -62,9 +69,24 @@ Constraints::Constraints(const std::vector<BoundaryConfig>& boundaries, const Na
     values_.push_back(table);
     marker(dof) = 1;
   }
+  for (const Rails::Rail& rail : rails_.list())
+    for (int dof : rail.dofs) marker(dof) = 1;
   space.GetProlongationMatrix()->Mult(marker, local_marker);
   local_marker_.resize(space.GetVSize());
   std::transform(local_marker.begin(), local_marker.end(), local_marker_.begin(), [](double x) { return x > 0.5; });
+}
+
+bool Constraints::any() const { return any_of(dofs_.Size() > 0) || rails_.any(); }
+
+void Constraints::set_zero(mfem::Vector& v) const {
+  for (int dof : dofs_) v(dof) = 0;
+  for (const Rails::Rail& rail : rails_.list())
+    for (int dof : rail.dofs) v(dof) = 0;
+}
+
+void Constraints::condense(mfem::Vector& R) const {
+  for (int dof : dofs_) R(dof) = 0;
+  rails_.gather(R);
 }
 
 void Constraints::set_values(double time, mfem::Vector& u) const {

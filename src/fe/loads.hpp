@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/config.hpp"
+#include "fe/rails.hpp"
 #include "fe/supports.hpp"
 #include "mesh/mesh.hpp"
 
@@ -24,18 +25,25 @@ struct BoundaryConfig {
   Table traction_scale{1};
   Table pressure;  // follower [Pa], pushes against the outward normal of the deformed surface
   SupportConfig support;
-  bool constrained() const { return clamp || prescribed[0] || prescribed[1] || prescribed[2]; }
+  RailConfig rail;
+  bool constrained() const { return clamp || prescribed[0] || prescribed[1] || prescribed[2] || rail.given(); }
   bool loaded() const;
   void bind(Section& s, const NamedMesh& mesh);
 };
 
-/// Prescribed components of true dofs.
+/// Prescribed components of true dofs, and those that share a value on rails: the one place where either is applied.
 class Constraints {
  public:
   Constraints(const std::vector<BoundaryConfig>& boundaries, const NamedMesh& mesh, mfem::ParFiniteElementSpace& space);
 
-  const mfem::Array<int>& dofs() const { return dofs_; }  ///< true dofs, this rank, increasing
+  const mfem::Array<int>& dofs() const { return dofs_; }  ///< prescribed true dofs, this rank, increasing
+  const Rails& rails() const { return rails_; }
+  bool any() const;  ///< of either, on any rank. Collective
+  /// Prescribed or on a rail: unit rows and columns in matrices.
   bool is_constrained_local(int local_dof) const { return local_marker_[local_dof] != 0; }
+  void set_zero(mfem::Vector& v) const;  ///< at all of these
+  /// Nodal forces to residuals: zero where values are prescribed, on rails their sum at its carrier. Collective.
+  void condense(mfem::Vector& R) const;
   void set_values(double time, mfem::Vector& u) const;  ///< u_i = g_i(t) at dofs()
   void set_rates(double time, mfem::Vector& v) const;   ///< v_i = g_i'(t), from before t
   /// True dofs of all components on a boundary: [component] -> dofs; its reaction is the sum of their residuals.
@@ -46,6 +54,7 @@ class Constraints {
   std::vector<const Table*> values_;
   std::vector<char> local_marker_;
   std::vector<std::array<mfem::Array<int>, 3>> boundary_dofs_;
+  Rails rails_;
 };
 
 /// Surface loads as integrals over cell faces in the reference configuration.

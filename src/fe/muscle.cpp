@@ -39,8 +39,7 @@ Muscle::Muscle(NamedMesh mesh, MuscleConfig config)
   upper -= lower;
   size_ = upper.Norml2();
   prescribed_ = prescribed_rate_ = trial_;
-  if (config_.inertia == Inertia::dynamic && !any_of(system_.constraints().dofs().Size() > 0))
-    turn_ = std::make_unique<RigidTurn>(space_);
+  if (config_.inertia == Inertia::dynamic && !system_.constraints().any()) turn_ = std::make_unique<RigidTurn>(space_);
   if (config_.error_estimate) recovery_ = std::make_unique<StressRecovery>(system_);
   start();
   follow(system_.step());
@@ -133,6 +132,7 @@ std::vector<double> Muscle::kinks() const {
     take(boundary.traction_scale.kinks());
     take(boundary.pressure.kinks());
     take(boundary.support.wall.travel.kinks());
+    take(boundary.rail.force.kinks());
   }
   for (const auto& [name, material] : config_.materials) take(material->kinks());
   return all;

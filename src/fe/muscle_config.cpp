@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/log.hpp"
+#include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "mesh/named_parts.hpp"
 #include "mesh/plane_vector.hpp"
@@ -54,20 +57,38 @@ void bind_formulation(Section s, MuscleConfig& c, const NamedMesh& mesh) {
     s.error("pennation_axis", "a direction of length zero", "give the line of action, e.g. [1, 0, 0]");
 }
 
+/// The component that a rail of one of the two and something in the other decide on; -1: none.
+int shared_axis(const BoundaryConfig& a, const BoundaryConfig& b) {
+  for (const auto& [one, other] : {std::pair{&a, &b}, {&b, &a}})
+    if (const int axis = one->rail.axis; axis >= 0 && (other->prescribed[axis] || other->rail.axis == axis))
+      return axis;
+  return -1;
+}
+
+/// Collective.
+bool share_vertices(const BoundaryConfig& a, const BoundaryConfig& b, const NamedMesh& mesh) {
+  for (const BoundaryConfig* boundary : {&a, &b})
+    for (const std::string& name : boundary->on)
+      if (!mesh.boundaries.count(name)) return false;
+  const mfem::H1_FECollection order_1(1, mesh.mesh->Dimension());
+  mfem::ParFiniteElementSpace vertices(mesh.mesh.get(), &order_1);
+  mfem::Array<int> of_a, of_b;
+  vertices.GetEssentialTrueDofs(mesh.boundary_marker(a.on), of_a);
+  vertices.GetEssentialTrueDofs(mesh.boundary_marker(b.on), of_b);
+  return any_of(std::any_of(of_a.begin(), of_a.end(), [&](int dof) { return of_b.Find(dof) >= 0; }));
+}
+
 }  // namespace
 
 void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
   bind_formulation(root.section("muscle", "the implicit finite element formulation"), *this, mesh);
   bind_materials(root, mesh);
-  root.each("boundary", "what happens at a boundary of the mesh; one that is not named is free",
-            [&](const std::string& name, Section s) {
-              BoundaryConfig boundary;
-              boundary.name = name;
-              boundary.bind(s, mesh);
-              boundaries.push_back(boundary);
-            });
+  bind_boundaries(root, mesh);
   Section initial = root.section("initial", "the motion at the start: that of a rigid body");
   this->initial.bind(initial, mesh);
+  for (const BoundaryConfig& boundary : boundaries)
+    if (boundary.rail.given() && this->initial.spin != std::array<double, 3>{0, 0, 0})
+      initial.error("spin", fmt::format("the plate at {} does not turn", boundary.name), "drop one of them");
   Section time = root.section("time");
   integrator.bind(time);
   if (inertia == Inertia::quasi_static && time.has("scheme"))
@@ -89,6 +110,43 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
       root.section("averages").error(average.name, "a material has this name, and means under it", "choose another");
   Section solver = root.section("solver", "Newton's method and the linear solver");
   newton.bind(solver);
+  const LinearMethod method = newton.linear.method;
+  const std::string problem = block_solver_problem();
+  if ((method == LinearMethod::block || method == LinearMethod::condensed) && !problem.empty())
+    solver.error("linear", "no multigrid " + problem, "take \"direct\"");
+}
+
+std::string MuscleConfig::block_solver_problem() const {
+  if (elements.list().size() > 1) return "for cells of several kinds";
+  if (!elements.list().empty() && elements.list()[0].pressure_degree < 0)
+    return "for elements without pressure and dilatation";
+  if (integrator.scheme == Scheme::energy_momentum) return "for the tangent of scheme \"energy_momentum\"";
+  return "";
+}
+
+void MuscleConfig::bind_boundaries(Section& root, const NamedMesh& mesh) {
+  root.each("boundary", "what happens at a boundary of the mesh; one that is not named is free",
+            [&](const std::string& name, Section s) {
+              BoundaryConfig boundary;
+              boundary.name = name;
+              boundary.bind(s, mesh);
+              for (const BoundaryConfig& other : boundaries) {
+                const int axis = shared_axis(boundary, other);
+                if (axis >= 0 && mesh.mesh && share_vertices(boundary, other, mesh))
+                  s.error("",
+                          fmt::format("{} gives the displacement along {} of nodes on its edge too: a plate on a "
+                                      "rail must have all of its nodes for itself",
+                                      other.name, "xyz"[axis]),
+                          "give one of the two another direction, or boundaries that do not touch");
+              }
+              boundaries.push_back(boundary);
+            });
+  root.each("link", "springs and dampers between two boundaries", [&](const std::string& name, Section s) {
+    LinkConfig link;
+    link.name = name;
+    link.bind(s, mesh);
+    links.push_back(link);
+  });
 }
 
 void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {

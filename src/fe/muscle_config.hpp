@@ -8,6 +8,7 @@
 
 #include "fe/cell_element.hpp"
 #include "fe/initial_motion.hpp"
+#include "fe/links.hpp"
 #include "fe/loads.hpp"
 #include "fe/observers.hpp"
 #include "fe/point_fields.hpp"
@@ -33,6 +34,7 @@ struct MuscleConfig {
   std::array<double, 3> body_acceleration{};  // [m/s^2]
   Table body_scale{1};
   std::vector<BoundaryConfig> boundaries;
+  std::vector<LinkConfig> links;
   std::vector<MarkerConfig> markers;
   std::vector<AverageConfig> averages;
   std::map<std::string, std::shared_ptr<const Material>> materials;
@@ -46,9 +48,12 @@ struct MuscleConfig {
   FibreRate rate() const { return inertia == Inertia::dynamic ? fibre_rate : FibreRate::none; }
   /// What of the rate changes within a step.
   FibreRate varying_rate() const { return integrator.scheme == Scheme::semi_implicit ? FibreRate::none : rate(); }
+  /// Why the block and condensed solvers cannot be had; empty where they can.
+  std::string block_solver_problem() const;
   void bind(Section& root, const NamedMesh& mesh);
 
  private:
+  void bind_boundaries(Section& root, const NamedMesh& mesh);
   void bind_materials(Section& root, const NamedMesh& mesh);
 };
 

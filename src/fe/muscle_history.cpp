@@ -15,7 +15,7 @@ const char* const component_name[] = {"x", "y", "z"};
 
 }  // namespace
 
-MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system) {
+MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system), attachments_(system) {
   const MuscleConfig& config = system.config();
   int max_attribute = 0;
   for (const auto& [attribute, name] : config.material_of_region) max_attribute = std::max(max_attribute, attribute);
@@ -86,6 +86,7 @@ void MuscleHistory::update(const mfem::Vector& u, const mfem::Vector& v, const S
     add_cell(cell, material, kernel, kernel.points(system_.point_input(cell)), &v_cells[system_.first_value(cell)]);
   });
   add_boundary_work(u, step);
+  attachments_.update(u, v, step, end_weight_);
   if (kinetic_at_start_ < 0) {
     kinetic_at_start_ = kinetic_;
     stored_at_start_ = volumetric_;
@@ -262,8 +263,11 @@ std::vector<Quantity> MuscleHistory::quantities() const {
   double held = 0;
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     if (boundaries[b].support.given()) held += add_support_quantities(b, list);
-  stored += held;
-  const double boundary = sum(work_boundary_) + held, body = sum(work_body_);  // supports are part of the system
+  attachments_.list(list);
+  held += attachments_.in_links();
+  stored += held + attachments_.in_loads();
+  const double boundary = sum(work_boundary_) + held + attachments_.work(),
+               body = sum(work_body_);  // supports are part of the system
   list.push_back({"work_boundary", "J", boundary});
   list.push_back({"work_body", "J", body});
   list.push_back(

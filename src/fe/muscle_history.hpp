@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "fe/attachment_history.hpp"
 #include "fe/muscle_system.hpp"
 #include "solve/model.hpp"
 
@@ -55,6 +56,7 @@ class MuscleHistory {
   Quantity reaction(int boundary, int component) const;
 
   MuscleSystem& system_;
+  AttachmentHistory attachments_;
   std::vector<TermAccount> terms_;
   std::vector<std::vector<int>> terms_of_region_;  // [attribute][term of the material] -> account
   std::vector<Mean> means_;

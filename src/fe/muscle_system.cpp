@@ -15,6 +15,7 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
       tables_(space, config.elements, config.points(), mesh.thickness),
       constraints_(config.boundaries, mesh, space),
       loads_(config.boundaries, mesh, config.elements, space, config.points()),
+      links_(config.links, mesh, config.elements, space, config.points()),
       kernel_(tables_),
       conserving_(tables_),
       u_cell_(tables_.most_values()),
@@ -37,6 +38,8 @@ MuscleSystem::MuscleSystem(const MuscleConfig& config, const NamedMesh& mesh, mf
   }
   if (config.integrator.scheme != Scheme::energy_momentum)
     matrices_ = CellMatrices::create(space_, tables_, symmetric_materials());
+  if (constraints_.rails().any() || links_.any())
+    border_ = std::make_unique<TangentBorder>(space, constraints_, links_);
   start_history();
   for (mfem::Vector* v : {&step_.u_old, &step_.known_inertia, &forces_, &body_forces_, &load_forces_, &support_forces_,
                           &static_forces_, &inertial_forces_}) {
@@ -82,6 +85,7 @@ StepState::StepState(double time, double dt, const mfem::Vector& u_old, const mf
 
 void MuscleSystem::accept_forces() {
   loads_.accept_multipliers();
+  plates_.accept();
   static_forces_old_ = static_forces_;
   inertial_forces_old_ = inertial_forces_;
 }
@@ -197,11 +201,15 @@ bool MuscleSystem::residual(const mfem::Vector& u, mfem::Vector& R) {
   load_forces_ = to_true(local_forces.load);
   support_forces_ = to_true(local_forces.support);
   inertial_forces_ = to_true(local_forces.inertia);
+  mfem::Vector total = to_true(local_forces.absolute);
+  update_links(u);
+  links_.add(support_forces_, total);
+  plates_.update(constraints_.rails(), load_time(), a_true);
+  plates_.add_sizes(constraints_.rails(), total);
   static_forces_ = to_true(local_forces.internal);
   static_forces_ -= body_forces_;
   static_forces_ -= load_forces_;
   static_forces_ -= support_forces_;
-  const mfem::Vector total = to_true(local_forces.absolute);
   force_scale_ = std::max(std::sqrt(sum(total * total)), force_floor_ / config_.newton.tolerance);
   balance(R);
   return true;
@@ -213,7 +221,8 @@ void MuscleSystem::balance(mfem::Vector& R) {
   R = static_forces_;
   R.Add(1 / w, inertial_forces_);
   if (w != 1) R.Add((1 - w) / w, static_forces_old_);
-  for (int dof : constraints_.dofs()) R(dof) = 0;
+  constraints_.condense(R);
+  plates_.add(constraints_.rails(), w, R);
   forces_ = static_forces_;
   if (step_.conserving) {  // those in the middle of the step: their work is exact
     forces_ += inertial_forces_;
@@ -221,6 +230,18 @@ void MuscleSystem::balance(mfem::Vector& R) {
   }
   forces_.Add(1 / m, inertial_forces_);
   if (m != 1) forces_.Add(-(1 - m) / m, inertial_forces_old_);
+}
+
+/// Links act where loads do in the step.
+void MuscleSystem::update_links(const mfem::Vector& u) {
+  if (!links_.any()) return;
+  mfem::Vector place(u), v(step_.known_velocity);
+  if (step_.conserving) add(0.5, u, 0.5, step_.u_old, place);
+  if (v.Size() > 0) {
+    v.Add(step_.velocity_factor, u);
+    v.Add(-step_.velocity_factor, step_.u_old);
+  }
+  links_.update(place, v);
 }
 
 const double* MuscleSystem::load_position() {
@@ -263,7 +284,7 @@ bool MuscleSystem::add_internal_forces(int cell, double* r) {
 }
 
 bool MuscleSystem::has_potential() const {
-  if (step_.conserving || loads_.has_follower()) return false;
+  if (step_.conserving || loads_.has_follower() || links_.has_damper()) return false;
   for (const BoundaryConfig& boundary : config_.boundaries)
     if (boundary.support.has_damper()) return false;
   for (const auto& [name, material] : config_.materials)
@@ -288,6 +309,8 @@ double MuscleSystem::potential(const mfem::Vector& u) {
   const std::vector<double> u_cells = cell_values(u);
   for (const BoundaryConfig& boundary : config_.boundaries)
     energy += loads_.support_state(boundary, step_.time, motion_of(u_cells, u_cells)).potential;
+  const double of_links = links_.energy(u);
+  const double of_plates = plates_.potential(constraints_.rails(), w, moving() ? step_.inertia_factor : 0, u);
   for (int i = 0; i < size(); ++i) {
     energy -= (load_forces_(i) + body_forces_(i)) * u(i);
     if (w != 1) energy += (1 - w) / w * static_forces_old_(i) * u(i);
@@ -295,7 +318,7 @@ double MuscleSystem::potential(const mfem::Vector& u) {
     const double a = step_.inertia_factor * (u(i) - step_.u_old(i)) + step_.known_inertia(i);
     energy += 0.5 / (step_.inertia_factor * w) * a * inertial_forces_(i);
   }
-  return sum(energy);
+  return sum(energy) + of_links + of_plates;
 }
 
 bool MuscleSystem::add_cell_forces(int cell, const LocalVectors& local, const mfem::Vector& acceleration,

@@ -16,9 +16,11 @@
 #include "fe/cell_matrices.hpp"
 #include "fe/cell_tables.hpp"
 #include "fe/energy_momentum.hpp"
+#include "fe/links.hpp"
 #include "fe/loads.hpp"
 #include "fe/muscle_config.hpp"
 #include "fe/tangent_action.hpp"
+#include "fe/tangent_border.hpp"
 #include "fe/three_field.hpp"
 #include "mesh/history.hpp"
 #include "solve/integrator.hpp"
@@ -61,6 +63,7 @@ class MuscleSystem : public NonlinearSystem {
   void tangent(const mfem::Vector& u, Mat) override { assemble(u, nullptr, nullptr); }
   bool has_cell_blocks() const override;
   const CellBlocks& cell_blocks(double gamma) override;
+  const Border* border() override { return border_ ? &border_->border() : nullptr; }
   double force_scale() const override { return force_scale_; }
   std::string domain_error() const override { return domain_error_; }
   bool has_potential() const override;
@@ -110,6 +113,7 @@ class MuscleSystem : public NonlinearSystem {
   PointInput point_input(int cell) const;
   History& history() { return history_; }
   const FaceLoads& loads() const { return loads_; }
+  const Links& links() const { return links_; }
   const CellTables& tables() const { return tables_; }
   mfem::ParFiniteElementSpace& space() { return space_; }
   const MuscleConfig& config() const { return config_; }
@@ -129,6 +133,8 @@ class MuscleSystem : public NonlinearSystem {
   bool symmetric_materials() const;
   std::vector<char> constrained_dofs() const;
   void balance(mfem::Vector& R);
+  void update_links(const mfem::Vector& u);
+  void end_border();
   /// When, and at which displacement of the cell, loads act in the step.
   double load_time() const { return step_.conserving ? step_.time - 0.5 * step_.dt : step_.time; }
   const double* load_position();
@@ -154,6 +160,7 @@ class MuscleSystem : public NonlinearSystem {
   CellTables tables_;
   Constraints constraints_;
   FaceLoads loads_;
+  Links links_;
   ThreeField kernel_;
   EnergyMomentum conserving_;
   std::vector<const Material*> materials_;  // of each cell
@@ -164,6 +171,8 @@ class MuscleSystem : public NonlinearSystem {
   std::unique_ptr<CellMatrices> matrices_;  // null where cells are formed singly
   std::unique_ptr<Assembly> assembly_;      // large: not there before the first step, so that checking a scene is cheap
   std::unique_ptr<TangentCells> cells_;     // once a linear solver asks for them
+  std::unique_ptr<TangentBorder> border_;   // null without rails and links
+  PlateForces plates_;
   std::vector<double> u_cell_, u_old_cell_, rate_old_cell_, middle_cell_, velocity_cell_;
   mfem::Vector forces_, body_forces_, load_forces_, support_forces_;
   // Internal less body and surface forces, and density times the acceleration in the balance: now and at the

@@ -67,9 +67,7 @@ void MuscleSystem::form_cells_singly(const LocalVectors& local, const std::funct
 }
 
 bool MuscleSystem::has_cell_blocks() const {
-  const bool mine = space_.GetNE() > 0 && tables_.geometry() == mfem::Geometry::CUBE && tables_.modes(0) > 0 &&
-                    config_.integrator.scheme != Scheme::energy_momentum;
-  return !any_of(!mine);
+  return config_.block_solver_problem().empty() && !any_of(space_.GetNE() == 0);
 }
 
 const CellBlocks& MuscleSystem::cell_blocks(double gamma) {
@@ -109,6 +107,7 @@ void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfe
   }
   double stiffest = 0;
   assembly().begin();
+  if (border_) border_->begin();
   form_cells(local, [&](int cell, double* K) {
     const int n = tables_.values(cell);
     for (int c = 0; c < n; ++c) stiffest = std::max(stiffest, std::abs(K[c * n + c]));
@@ -118,11 +117,13 @@ void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfe
       cells_->set(cell, kernel_, material(cell), K, inertia(cell));
     }
     if (lift) add_lift(cell, K, &local_lift, &local_R);
+    if (border_) border_->add(dofs(cell), n, K);
     assembly_->add(cell, K);
   });
+  end_border();
   if (lift) {
     mfem::Vector change = to_true(local_R);
-    for (int dof : constraints_.dofs()) change(dof) = 0;
+    constraints_.condense(change);
     *R += change;
   }
   mfem::Vector lower, upper;
@@ -130,6 +131,13 @@ void MuscleSystem::assemble(const mfem::Vector& u, const mfem::Vector* lift, mfe
   upper -= lower;
   force_floor_ = round_off * titin::max(stiffest) * upper.Normlinf() * std::sqrt(double(space_.GlobalTrueVSize()));
   assembly_->end();
+}
+
+void MuscleSystem::end_border() {
+  if (!border_) return;
+  const bool has_velocity = step_.known_velocity.Size() > 0;
+  border_->end(moving() ? step_.inertia_factor / step_.force_weight : 0.0, step_.conserving ? 0.5 : 1,
+               has_velocity ? step_.velocity_factor : 0.0);
 }
 
 /// The derivative of the inertia in the residual.

@@ -128,7 +128,7 @@ void SchurInverse::invert_slopes(const std::vector<double>& mass) {
         }
         block[l * slopes + k] = sum;
       }
-    invert_small(slopes, block.data(), &slopes_inverse_[std::size_t(cell) * slopes * slopes]);
+    invert_small(slopes, block.data(), slopes_inverse_.data() + std::size_t(cell) * slopes * slopes);
   }
 }
 
@@ -196,7 +196,8 @@ void SchurInverse::precondition(const std::vector<double>& r, std::vector<double
   for (int cell = 0; cell < layout.cells; ++cell) {
     const std::size_t first = std::size_t(cell) * m;
     z[first] = solution[cell];
-    add_multiply(slopes, &slopes_inverse_[std::size_t(cell) * slopes * slopes], &r[first] + 1, &z[first] + 1);
+    add_multiply(slopes, slopes_inverse_.data() + std::size_t(cell) * slopes * slopes, r.data() + first + 1,
+                 z.data() + first + 1);
   }
   check(VecRestoreArrayRead(left_, &solution));
 }

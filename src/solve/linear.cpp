@@ -15,9 +15,6 @@ constexpr int restart = 60;
 constexpr int max_iterations = 60;  // an old factorisation that needs more is worth nothing
 /// [%] of MUMPS's own estimate, ICNTL(14): fill grows with pivoting on indefinite matrices.
 constexpr auto mumps_extra_memory = "60";
-/// Where factors cost more than the block solver although they are used again: 0.5 GB at 47 000 unknowns, and growing
-/// as n^1.2 in memory and n^1.7 in time (docs/verification/solvers.md).
-constexpr PetscInt largest_direct = 40000;
 constexpr double gamma_of_block =
     5;  // augmentation over the shear modulus; more locks the coarse level in slender bodies
 /// Iterations that cost as much as a new preconditioner of the block solver.
@@ -31,23 +28,6 @@ struct View {
   ~View() { VecDestroy(&vec); }
   Vec vec = nullptr;
 };
-
-LinearMethod chosen(LinearMethod asked, Mat K, bool has_cells) {
-  if (!has_cells && (asked == LinearMethod::block || asked == LinearMethod::condensed))
-    throw InputError(
-        {"solver.linear: this needs hexahedra with pressure and dilatation, and a scheme other than energy_momentum; "
-         "take \"direct\""});
-  PetscInt size;
-  check(MatGetSize(K, &size, nullptr));
-  const bool small = size <= largest_direct || !has_cells;
-  const LinearMethod method =
-      asked != LinearMethod::automatic ? asked : (small ? LinearMethod::direct : LinearMethod::block);
-  if (asked == LinearMethod::automatic)
-    logging::info(
-        "linear solver: {} for {} unknowns ({})", small ? "direct" : "block", size,
-        has_cells ? fmt::format("block above {}", largest_direct) : "no block solver for this element or scheme");
-  return method;
-}
 
 }  // namespace
 
@@ -68,11 +48,11 @@ void LinearConfig::bind(Section& s) {
 }
 
 LinearSolver::LinearSolver(const LinearConfig& config, Mat K, bool symmetric,
-                           const std::function<const CellBlocks&(double gamma)>& cells)
+                           const std::function<const CellBlocks&(double gamma)>& cells, const Border* border)
     : config_(config) {
-  check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
-  check(KSPSetOperators(ksp_, K, K));
-  switch (chosen(config.method, K, static_cast<bool>(cells))) {
+  check(KSPCreate(PETSC_COMM_WORLD, &solver_));
+  check(KSPSetOperators(solver_, K, K));
+  switch (chosen_method(config.method, K, static_cast<bool>(cells))) {
     case LinearMethod::block:
       create_block(K, cells(gamma_of_block));
       break;
@@ -82,39 +62,62 @@ LinearSolver::LinearSolver(const LinearConfig& config, Mat K, bool symmetric,
     default:
       create_direct(symmetric);
   }
+  ksp_ = solver_;
+  if (border) create_bordered(K, *border);
 }
 
 void LinearSolver::create_direct(bool symmetric) {
-  check(KSPSetType(ksp_, KSPGMRES));
-  check(KSPGMRESSetRestart(ksp_, restart));
+  check(KSPSetType(solver_, KSPGMRES));
+  check(KSPGMRESSetRestart(solver_, restart));
   // The tolerance is then one of forces, as Newton's is. In displacements, which the other side would measure, soft
   // modes hide what is left in stiff ones: slender or nearly incompressible bodies took seven times the Newton
   // iterations.
-  check(KSPSetPCSide(ksp_, PC_RIGHT));
-  check(KSPSetTolerances(ksp_, config_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, max_iterations));
+  check(KSPSetPCSide(solver_, PC_RIGHT));
+  check(KSPSetTolerances(solver_, config_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, max_iterations));
   PC pc;
-  check(KSPGetPC(ksp_, &pc));
+  check(KSPGetPC(solver_, &pc));
   check(PCSetType(pc, symmetric ? PCCHOLESKY : PCLU));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   set_default_option("mat_mumps_icntl_14", mumps_extra_memory);
-  check_options(KSPSetFromOptions(ksp_));
+  check_options(KSPSetFromOptions(solver_));
 }
 
 /// SNES sees one application of a preconditioner, which is a whole solve.
 void LinearSolver::create_block(Mat K, const CellBlocks& cells) {
   check(MatSetOption(K, MAT_USE_INODES, PETSC_FALSE));  // twice as fast without
   block_ = std::make_unique<BlockSolver>(cells, K);
-  check(KSPSetType(ksp_, KSPPREONLY));
-  check(KSPSetTolerances(ksp_, config_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  check(KSPSetType(solver_, KSPPREONLY));
+  check(KSPSetTolerances(solver_, config_.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   PC pc;
-  check(KSPGetPC(ksp_, &pc));
+  check(KSPGetPC(solver_, &pc));
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, this));
   check(PCShellSetSetUp(pc, update_block));
   check(PCShellSetApply(pc, apply_block));
 }
 
-LinearSolver::~LinearSolver() { KSPDestroy(&ksp_); }
+/// SNES sees one application of a preconditioner here too.
+void LinearSolver::create_bordered(Mat K, const Border& border) {
+  PetscReal tolerance;
+  check_options(KSPSetFromOptions(solver_));  // SNES does it for the one that it sees
+  check(KSPGetTolerances(solver_, &tolerance, nullptr, nullptr, nullptr));
+  bordered_ = std::make_unique<BorderedSolver>(solver_, border);
+  check(KSPCreate(PETSC_COMM_WORLD, &ksp_));
+  check(KSPSetOptionsPrefix(ksp_, "bordered_"));
+  check(KSPSetOperators(ksp_, K, K));
+  check(KSPSetType(ksp_, KSPPREONLY));
+  check(KSPSetTolerances(ksp_, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  PC pc;
+  check(KSPGetPC(ksp_, &pc));
+  check(PCSetType(pc, PCSHELL));
+  check(PCShellSetContext(pc, this));
+  check(PCShellSetApply(pc, apply_bordered));
+}
+
+LinearSolver::~LinearSolver() {
+  if (ksp_ != solver_) KSPDestroy(&ksp_);
+  KSPDestroy(&solver_);
+}
 
 PetscErrorCode LinearSolver::update_block(PC pc) {
   LinearSolver* self;
@@ -128,18 +131,31 @@ PetscErrorCode LinearSolver::apply_block(PC pc, Vec b, Vec x) {
   LinearSolver* self;
   check(PCShellGetContext(pc, &self));
   PetscReal tolerance;
-  check(KSPGetTolerances(self->ksp_, &tolerance, nullptr, nullptr, nullptr));
+  check(KSPGetTolerances(self->solver_, &tolerance, nullptr, nullptr, nullptr));
   self->block_failure_ = self->block_->solve(b, x, tolerance);
-  if (!self->reused_) self->fresh_iterations_ = self->block_->iterations();
+  self->largest_ = std::max(self->bordered_ ? self->largest_ : 0, self->block_->iterations());
+  if (!self->reused_) self->fresh_iterations_ = self->largest_;
   self->total_ += self->block_->iterations();
   check(PCSetFailedReason(pc, self->block_failure_.empty() ? PC_NOERROR : PC_SUBPC_ERROR));
   return 0;
 }
 
+PetscErrorCode LinearSolver::apply_bordered(PC pc, Vec b, Vec x) {
+  LinearSolver* self;
+  check(PCShellGetContext(pc, &self));
+  PetscReal tolerance;
+  check(KSPGetTolerances(self->ksp_, &tolerance, nullptr, nullptr, nullptr));
+  self->largest_ = 0;
+  const bool solved = self->bordered_->solve(b, x, tolerance);
+  check(PCSetFailedReason(pc, solved ? PC_NOERROR : PC_SUBPC_ERROR));
+  return 0;
+}
+
 bool LinearSolver::matrix_changed() {
+  if (bordered_) bordered_->matrix_changed();
   const int limit = block_ ? fresh_iterations_ + setup_in_iterations : config_.reuse_limit;
   reused_ = prepared_ && failure().empty() && iterations() <= limit;
-  check(KSPSetReusePreconditioner(ksp_, reused_ ? PETSC_TRUE : PETSC_FALSE));
+  check(KSPSetReusePreconditioner(solver_, reused_ ? PETSC_TRUE : PETSC_FALSE));
   prepared_ = true;
   return reused_;
 }
@@ -159,6 +175,9 @@ std::string LinearSolver::failure() const {
   KSPConvergedReason reason;
   check(KSPGetConvergedReason(ksp_, &reason));
   if (reason >= 0) return "";
+  if (bordered_ && bordered_->singular())
+    return "the tangent of a plate on a rail or of a link is singular: nothing resists its motion";
+  check(KSPGetConvergedReason(solver_, &reason));
   if (block_ && !block_failure_.empty()) return block_failure_;
   if (reason == KSP_DIVERGED_PC_FAILED)
     return "the tangent could not be factorised (it is singular, or memory ran out)";
@@ -167,16 +186,17 @@ std::string LinearSolver::failure() const {
 }
 
 int LinearSolver::iterations() const {
-  if (block_) return block_->iterations();
+  if (block_) return largest_;
+  if (bordered_) return bordered_->iterations();
   PetscInt its = 0;
-  check(KSPGetIterationNumber(ksp_, &its));
+  check(KSPGetIterationNumber(solver_, &its));
   return its;
 }
 
 int LinearSolver::take_iterations() {
   if (!block_) {
     PetscInt its = 0;
-    check(KSPGetTotalIterations(ksp_, &its));
+    check(KSPGetTotalIterations(solver_, &its));
     const int taken = static_cast<int>(its) - total_;
     total_ = static_cast<int>(its);
     return taken;

@@ -8,11 +8,11 @@
 
 #include "base/config.hpp"
 #include "solve/block_solver.hpp"
+#include "solve/bordered.hpp"
+#include "solve/linear_choice.hpp"
 #include "solve/petsc.hpp"
 
 namespace titin {
-
-enum class LinearMethod { automatic, direct, block, condensed };
 
 struct LinearConfig {
   LinearMethod method = LinearMethod::automatic;
@@ -31,9 +31,9 @@ struct LinearConfig {
 class LinearSolver {
  public:
   /// `cells` gives the tangent's cells with an augmentation gamma; asked once if the method needs them. Empty where
-  /// the elements have none: then `auto` is direct, and InputError thrown for the others.
+  /// the elements have none: then `auto` is direct, and InputError thrown for the others. `border`: null without.
   LinearSolver(const LinearConfig& config, Mat K, bool symmetric,
-               const std::function<const CellBlocks&(double gamma)>& cells);
+               const std::function<const CellBlocks&(double gamma)>& cells, const Border* border = nullptr);
   ~LinearSolver();
   LinearSolver(const LinearSolver&) = delete;
 
@@ -53,14 +53,19 @@ class LinearSolver {
  private:
   void create_direct(bool symmetric);
   void create_block(Mat K, const CellBlocks& cells);
+  void create_bordered(Mat K, const Border& border);
   static PetscErrorCode update_block(PC);
   static PetscErrorCode apply_block(PC, Vec b, Vec x);
+  static PetscErrorCode apply_bordered(PC, Vec b, Vec x);
 
   LinearConfig config_;
-  KSP ksp_ = nullptr;
+  KSP ksp_ = nullptr;     // what others see
+  KSP solver_ = nullptr;  // of K: the same but with a border
+  std::unique_ptr<BorderedSolver> bordered_;
   std::unique_ptr<BlockSolver> block_;
   std::string block_failure_;
   int fresh_iterations_ = 0;  // of the first solve with a new preconditioner
+  int largest_ = 0;           // of the last solve: with a border it takes several
   int total_ = 0;
   bool prepared_ = false, reused_ = false;
 };

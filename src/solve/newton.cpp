@@ -72,7 +72,7 @@ Newton::Newton(const NewtonConfig& config, NonlinearSystem& system, Mat K) : con
   std::function<const CellBlocks&(double)> cells;
   if (system.has_cell_blocks())
     cells = [&system](double gamma) -> const CellBlocks& { return system.cell_blocks(gamma); };
-  linear_ = std::make_unique<LinearSolver>(config.linear, K, known && symmetric, cells);
+  linear_ = std::make_unique<LinearSolver>(config.linear, K, known && symmetric, cells, system.border());
   check(VecCreateMPI(PETSC_COMM_WORLD, system.size(), PETSC_DECIDE, &u_));
   check(VecDuplicate(u_, &R_));
   check(SNESCreate(PETSC_COMM_WORLD, &snes_));

@@ -24,6 +24,8 @@ class NonlinearSystem {
   /// current. The same gamma at every call.
   virtual const CellBlocks& cell_blocks(double gamma) = 0;
   virtual bool has_cell_blocks() const = 0;  ///< Collective
+  /// Unknowns that tangent() does not put into K; null: none. The same object for the whole run.
+  virtual const Border* border() { return nullptr; }
   /// The force that a residual is measured against, at the last u of residual() [N].
   virtual double force_scale() const = 0;
   /// Why residual() was false, in words.
