@@ -14,7 +14,7 @@ on three meshes, each of cells half as long as the last, with the long step, ext
 at which they approach each other (stresses are singular where the ends are held, so the rate is low whatever the order);
 plus what short steps change on a coarse mesh, extrapolated to step zero (backward Euler: 2 R(dt/2) - R(dt)). How far the
 parts are off, and what the extrapolations change, is printed. `--exact FILE` takes R* from a file that an earlier run wrote
-(over_refined.csv; that of the page is in tests/data/muscle). The same error is given for the reference code's printed force
+(over_refined.csv in its folder). The same error is given for the reference code's printed force
 and for its consistent reaction.
 
 CPU seconds are those of the process, which company on the machine changes little; run alone all the same.
