@@ -7,6 +7,8 @@ namespace {
 
 /// What is left of a unit direction beside others: less is round-off, and the direction is given already.
 constexpr double independent = 1e-6;
+/// Faces lie in one plane when the size of the sum of their area vectors is this part of the sum of their areas.
+constexpr double plane = 1 - 1e-9;
 
 template <int D>
 std::array<Vector<D>, D> complement(const Directions<D>& given) {
@@ -123,13 +125,13 @@ void Boundary<D>::take_rules() {
                        std::any_of(condition.velocity.begin(), condition.velocity.end(), [](auto* t) { return t; });
     if (!condition.normal_velocity && !moves && !condition.has_obstacle) continue;
     for (int attribute : condition.attributes) {
-      std::vector<std::array<double, D + 1>> area(mesh_.nodes());  // area vector, and how many faces
+      std::vector<std::array<double, D + 1>> area(mesh_.nodes());  // sum of the area vectors, and of the areas
       for (const auto& face : mesh_.boundary) {
         if (face.attribute != attribute) continue;
         const Vector<D> N = area_vector<D>(mesh_.corners_of(face, mesh_.x));
         for (int node : face.nodes) {
           for (int i = 0; i < D; ++i) area[node][i] += N[i];
-          area[node][D] += 1;
+          area[node][D] += norm(N);
         }
       }
       exchange_.sum(&area[0][0], D + 1);
@@ -142,12 +144,22 @@ void Boundary<D>::take_rules() {
           const double size = norm(n);
           for (double& component : n) component /= size;
           rules.walls.emplace_back(static_cast<int>(c), n);
+          if (condition.mirrors && size > plane * area[p][D]) take_mirror(p, n);
         }
         if (moves) rules.moving.push_back(static_cast<int>(c));
         if (condition.has_obstacle) rules.obstacles.push_back(static_cast<int>(c));
       }
     }
   }
+}
+
+template <int D>
+void Boundary<D>::take_mirror(int node, const Vector<D>& normal) {
+  auto here = std::find_if(mirrors_.begin(), mirrors_.end(), [&](const auto& m) { return m.node == node; });
+  if (here == mirrors_.end()) here = mirrors_.insert(here, Mirrors<D>{node, 0, {}});
+  for (int k = 0; k < here->count; ++k)
+    if (std::abs(dot(here->normal[k], normal)) > plane) return;
+  if (here->count < D) here->normal[here->count++] = normal;
 }
 
 template <int D>

@@ -27,6 +27,7 @@ struct BoundaryCondition {
   std::vector<int> attributes;                                     // MFEM's
   std::array<const Table*, D> velocity{};                          // of components [m/s]; null: free
   const Table* normal_velocity = nullptr;                          // outwards [m/s]; a wall has 0
+  bool mirrors = false;                                            // a wall: where it is plane, a plane of symmetry
   const Table* pressure = nullptr;                                 // pushes against the outward normal [Pa]
   Vector<D> traction{};                                            // per area at rest [Pa]
   const Table* traction_scale = nullptr;                           // of the traction, in time; null: none
@@ -51,6 +52,13 @@ struct Directions {
   void add(const Vector<D>& n, double w, int owner);
   /// The velocity that solves M v = b in the directions that are left.
   Vector<D> solve(const Symmetric<D>& M, const Vector<D>& b) const;
+};
+
+/// Planes of symmetry at a node, by their unit normals.
+template <int D>
+struct Mirrors {
+  int node = 0, count = 0;
+  std::array<Vector<D>, D> normal;
 };
 
 template <int D>
@@ -79,6 +87,7 @@ class Boundary {
   Vector<3> moment(const std::vector<Vector<D>>& x) const;
 
   const std::vector<BoundaryCondition<D>>& conditions() const { return conditions_; }
+  const std::vector<Mirrors<D>>& mirrors() const { return mirrors_; }
 
  private:
   struct NodeRules {
@@ -97,6 +106,7 @@ class Boundary {
   void take_faces();
   void take_rules();
   int take_place(int node);
+  void take_mirror(int node, const Vector<D>& normal);
   Directions<D> directions(const NodeRules& rules, const Vector<D>& x) const;
   Vector<D> meet_obstacles(const NodeRules& rules, Directions<D>& given, const Symmetric<D>& M, const Vector<D>& b,
                            const Vector<D>& x) const;
@@ -106,10 +116,11 @@ class Boundary {
   NodeExchange& exchange_;
   std::vector<BoundaryCondition<D>> conditions_;
   std::vector<LoadedFace> faces_;
-  std::vector<int> place_;        // [node]
-  std::vector<NodeRules> rules_;  // [place]
-  std::vector<Vector<D>> load_;   // [place]
-  double time_ = 0, dt_ = 0;      // of the loads; of the step
+  std::vector<int> place_;           // [node]
+  std::vector<NodeRules> rules_;     // [place]
+  std::vector<Vector<D>> load_;      // [place]
+  std::vector<Mirrors<D>> mirrors_;  // by node
+  double time_ = 0, dt_ = 0;         // of the loads; of the step
 };
 
 extern template class Boundary<2>;

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "materials/compressible.hpp"
-#include "materials/ellipticity.hpp"
+#include "materials/fastest_wave.hpp"
 
 namespace titin {
 namespace {
@@ -11,6 +11,8 @@ namespace {
 /// A speed is sought anew when C has changed by this part of itself: the speed, and with it the impedance, is then off
 /// by no more than about as much, which changes dissipation of the scheme, not its order.
 constexpr double same_deformation = 0.01;
+/// Another cell's speed is taken at this distance: no more, or runs would depend on how cells are shared by ranks.
+constexpr double alike = 1e-12;
 constexpr int batch = 64;  // points of stress held at a time
 
 class FluidClosure final : public Closure {
@@ -45,32 +47,43 @@ class SolidClosure final : public Closure {
     std::array<Mat3, batch> P;
     for (int first = 0; first < in.n; first += batch) {
       const PointInput points = points_of(in, first);
-      whole_stress(*material_, points, P.data(), nullptr);
-      for (int i = 0; i < points.n; ++i) {
-        const Mat3& F = points.F[i];
-        T[first + i] = symmetric_part(multiply(P[i], transpose(F)));
-        const double over_J = 1 / determinant(F);
-        for (double& component : T[first + i]) component *= over_J;
-      }
+      material_->stress(points, P.data(), nullptr);
+      for (int i = 0; i < points.n; ++i) T[first + i] = cauchy(P[i], points.F[i]);
     }
   }
 
   void stress_and_speed(const CellBatch& in, WaveMemory* memory, Sym3* T, double* speed) const override {
     stress(in, T);
+    WaveMemory last;  // bodies at rest are deformed alike everywhere
     for (int i = 0; i < in.n; ++i) {
       const Sym3 C = right_cauchy_green(in.F[i]);
       WaveMemory& known = memory[in.cell[i]];
-      if (!near(C, known)) {
-        PointInput point = points_of(in, i);
-        point.n = 1;
-        known.C = C;
-        wave_speed(*material_, point, &known.speed);
+      if (!near(C, known, same_deformation)) {
+        if (!near(C, last, alike)) {
+          PointInput point = points_of(in, i);
+          point.n = 1;
+          last.C = C;
+          fastest_wave(*material_, point, &last.speed);
+        }
+        known = last;
       }
       speed[i] = known.speed;
     }
   }
 
   bool admissible(double density, double) const override { return density > 0; }
+
+  Volumetric volumetric(double ratio) const override {
+    const Material::Volumetric law = material_->volumetric(ratio);
+    return {law.U, law.dU};
+  }
+
+  bool has_fibres() const override { return material_->has_fibres(); }
+  void fibre_stretch(const CellBatch& in, double* stretch) const override {
+    std::array<double, batch> rate, activation;
+    for (int first = 0; first < in.n; first += batch)
+      material_->fibre_state(points_of(in, first), stretch + first, rate.data(), activation.data());
+  }
 
   void stored(const CellBatch& in, double* psi) const override {
     for (int first = 0; first < in.n; first += batch) {
@@ -90,6 +103,14 @@ class SolidClosure final : public Closure {
   }
 
  private:
+  /// P F^T / J, symmetric as it is, and U'(J) I of the volumetric law.
+  Sym3 cauchy(const Mat3& P, const Mat3& F) const {
+    const double J = determinant(F), over_J = 1 / J, slope = material_->volumetric(J).dU;
+    const auto row = [&](int i, int j) {
+      return over_J * (P[3 * i] * F[3 * j] + P[3 * i + 1] * F[3 * j + 1] + P[3 * i + 2] * F[3 * j + 2]);
+    };
+    return {row(0, 0) + slope, row(1, 1) + slope, row(2, 2) + slope, row(0, 1), row(1, 2), row(0, 2)};
+  }
   static PointInput points_of(const CellBatch& in, int first) {
     PointInput points;
     points.n = std::min(batch, in.n - first);
@@ -104,10 +125,10 @@ class SolidClosure final : public Closure {
       C[k] = F[row[k]] * F[column[k]] + F[3 + row[k]] * F[3 + column[k]] + F[6 + row[k]] * F[6 + column[k]];
     return C;
   }
-  static bool near(const Sym3& C, const WaveMemory& memory) {
+  static bool near(const Sym3& C, const WaveMemory& memory, double part) {
     Sym3 change;
     for (int k = 0; k < 6; ++k) change[k] = C[k] - memory.C[k];
-    return memory.speed > 0 && contract(change, change) <= same_deformation * same_deformation * contract(C, C);
+    return memory.speed > 0 && contract(change, change) <= part * part * contract(C, C);
   }
 
   std::shared_ptr<const Material> material_;

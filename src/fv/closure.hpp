@@ -5,6 +5,7 @@
 /// over the stored energy is heat. Plane strain in two dimensions: F_33 = 1.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "materials/fluid.hpp"
@@ -39,6 +40,14 @@ class Closure {
   /// The same, and the speed of the fastest wave [m/s]. `memory` [cell] is the caller's, kept from step to
   /// step.
   virtual void stress_and_speed(const CellBatch& in, WaveMemory* memory, Sym3* T, double* speed) const = 0;
+  /// Of a solid's volumetric law at a volume ratio: energy [J/m^3] and its derivative [Pa]; none for the rest.
+  struct Volumetric {
+    double U, dU;
+  };
+  virtual Volumetric volumetric(double /*ratio*/) const { return {0, 0}; }
+  /// Does it have a direction of fibres, and how far are n cells stretched along it? 0 without.
+  virtual bool has_fibres() const { return false; }
+  virtual void fibre_stretch(const CellBatch& in, double* stretch) const { std::fill_n(stretch, in.n, 0.0); }
   /// Is this a state the material is good for?
   virtual bool admissible(double density, double energy) const = 0;
   /// Energy stored without heat [J/kg]: what a solid gives back. Fluids store none.

@@ -12,6 +12,8 @@ void FvConfig::bind(Section& s) {
            {{"mood", Limiter::mood}, {"barth_jespersen", Limiter::barth_jespersen}, {"none", Limiter::none}},
            {.doc = "mood: where a step has failed, again with limited slopes, then without; barth_jespersen: limited "
                    "slopes everywhere; none: slopes as they are"});
+  s.choose("cascade", cascade, {{"limited", Cascade::limited}, {"constant", Cascade::constant}},
+           {.doc = "what a cell of mood falls to first: limited slopes, then constant; or constant at once"});
   s.read("cfl", cfl,
          {.range = {.min = 0, .max = 1, .open_min = true},
           .doc = "part of the time that the fastest wave takes through a cell's inner ball"});
@@ -22,6 +24,11 @@ void FvConfig::bind(Section& s) {
   s.read(
       "first_step", first_step,
       {.range = {.min = 0, .max = 1, .open_min = true}, .doc = "part of the acoustic step that the first one takes"});
+  s.read(
+      "patch_pressure", patch_pressure,
+      {.doc =
+           "solids take their pressure from the volumes of the patches of cells about their nodes, of each region by "
+           "itself: for nearly incompressible ones, which are else too stiff"});
   s.read("impedance", impedance,
          {.range = {.min = 0.5, .max = 4}, .doc = "factor of density times wave speed in the nodal solver"});
   s.read("shock_impedance", shock_impedance,

@@ -7,15 +7,19 @@ namespace titin {
 
 enum class Predictor { hancock, ader, rk2 };
 enum class Limiter { mood, barth_jespersen, none };
+/// What a cell of MOOD falls to first: limited slopes, and only then none; or none at once.
+enum class Cascade { limited, constant };
 
 struct FvConfig {
   int order = 2;  // in space and time
   Predictor predictor = Predictor::hancock;
   Limiter limiter = Limiter::mood;
+  Cascade cascade = Cascade::limited;
   double cfl = 0.4;                   // part of the time that the fastest wave takes through a cell's inner ball
   double volume_change = 0.2;         // largest part of a cell's volume that a step may change
   double growth = 0.1;                // how much longer than the last a step may be
   double first_step = 0.1;            // part of the acoustic step that the first one takes
+  bool patch_pressure = false;        // of solids, averaged about nodes: against volumetric locking
   double impedance = 1;               // factor of rho c in the nodal solver
   double shock_impedance = 1.33;      // s of rho (c + s |dv|), dv the jump of the velocity at a node
   double principle_tolerance = 1e-4;  // of the maximum principle, relative to rho, rho c^2, c

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "fv/motion_errors.hpp"
 
 namespace titin {
 namespace {
@@ -43,6 +44,7 @@ std::vector<BoundaryCondition<D>> Lagrange<D>::conditions() const {
     to.name = from.name;
     for (const std::string& name : from.on) to.attributes.push_back(mesh_.boundaries.at(name));
     if (from.wall) to.normal_velocity = &no_velocity;
+    to.mirrors = from.wall;
     if (from.has_normal_velocity) to.normal_velocity = &from.normal_velocity;
     for (int i = 0; i < D; ++i)
       if (from.prescribed[i]) to.velocity[i] = &from.velocity[i];
@@ -107,10 +109,16 @@ long Lagrange<D>::unknowns() const {
   return (D + 1) * sum(static_cast<long>(cells_.cells())) + D * sum(nodes);
 }
 
+template <int D>
+double Lagrange<D>::bytes_per_step() const {
+  return sum(scheme_.bytes_per_step());
+}
+
 /// Of density, pressure and velocity at the centres of cells: mean and root of the mean square over the body times its
 /// volume (integrals), and the largest.
 template <int D>
 std::vector<Quantity> Lagrange<D>::errors() {
+  if (config_.exact_motion) return motion_errors<D>(scheme_, *config_.exact_motion, time_);
   if (!config_.exact) return {};
   constexpr const char* names[] = {"density", "pressure", "velocity"};
   constexpr const char* units[] = {"kg/m^3", "Pa", "m/s"};

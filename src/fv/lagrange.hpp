@@ -31,6 +31,7 @@ class Lagrange final : public Model {
   const std::vector<Field>& fields() const override { return fields_.fields(); }
   mfem::ParMesh& mesh() override { return *mesh_.mesh; }
   long unknowns() const override;
+  double bytes_per_step() const override;
   const FlowScheme<D>& scheme() const { return scheme_; }
 
  private:

@@ -131,6 +131,7 @@ void LagrangeConfig::bind(Section& root, const NamedMesh& mesh) {
             });
   exact = ExactFlow::read(root.section("exact", "a solution to start from and to compare with"),
                           mesh.mesh ? mesh.mesh->Dimension() : 3);
+  exact_motion = ExactMotion::read(root.section("exact_motion", "of a solid: a solution to compare with"));
   for (const auto& boundary : boundaries)
     if (boundary.exact != ExactBoundary::none && !exact)
       root.section("boundary")
@@ -157,6 +158,11 @@ void LagrangeConfig::read_material(const std::string& name, Section s) {
   if (solid->history_size() > 0)
     s.error("", "remembers its past, which the Lagrangian formulation does not carry yet",
             "take a law without viscosity and damage");
+  if (!solid->fields().empty())
+    s.error("", "varies in space, which the Lagrangian formulation does not carry yet", "give numbers, not fields");
+  if (fv.patch_pressure && !solid->has_volumetric_law())
+    s.error("", "has no volumetric law of its own, whose pressure fv.patch_pressure could average",
+            "add volumetric, or leave fv.patch_pressure out");
   densities[name] = solid->density();
   closures[name] = make_closure(solid);
 }

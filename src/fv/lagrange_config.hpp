@@ -9,6 +9,7 @@
 #include "fv/boundary.hpp"
 #include "fv/closure.hpp"
 #include "fv/exact_flow.hpp"
+#include "fv/exact_motion.hpp"
 #include "fv/fv_config.hpp"
 #include "mesh/markers.hpp"
 
@@ -64,6 +65,7 @@ struct LagrangeConfig {
   std::vector<InitialConfig> initial;
   std::vector<MarkerConfig> markers;
   std::shared_ptr<const ExactFlow> exact;
+  std::shared_ptr<const ExactMotion> exact_motion;  // of solids
   void bind(Section& root, const NamedMesh& mesh);
 
  private:

@@ -1,5 +1,7 @@
 #include "fv/lagrange_fields.hpp"
 
+#include "base/parallel.hpp"
+
 namespace titin {
 
 template <int D>
@@ -17,6 +19,9 @@ LagrangeFields<D>::LagrangeFields(mfem::ParMesh& mesh, const FlowScheme<D>& sche
   order_ = fields_.add("order", "", scalars_);
   velocity_ = fields_.add("velocity", "m/s", vectors_);
   stress_ = fields_.add("cauchy_stress", "Pa", tensors_);
+  bool has_fibres = false;
+  for (int c = 0; c < scheme.mesh().cells(); ++c) has_fibres = has_fibres || scheme.closure(c).has_fibres();
+  if (any_of(has_fibres)) fibre_stretch_ = fields_.add("fibre_stretch", "", scalars_);
 }
 
 template <int D>
@@ -40,9 +45,14 @@ void LagrangeFields<D>::write(std::span<const int> cells, const Closure& closure
     density[b] = state.cell[cells[b]].density;
     energy[b] = scheme_.internal_energy(cells[b], state);
   }
-  closure.stress({static_cast<int>(cells.size()), F.data(), density.data(), energy.data(), nullptr, time}, T.data());
+  const CellBatch batch{static_cast<int>(cells.size()), F.data(), density.data(), energy.data(), nullptr, time};
+  closure.stress(batch, T.data());
+  std::array<double, cells_per_block> stretch{};
+  if (fibre_stretch_) closure.fibre_stretch(batch, stretch.data());
   for (std::size_t b = 0; b < cells.size(); ++b) {
     const int e = scheme_.mesh().element_of[cells[b]];
+    for (int i = 0; i < 3; ++i) T[b][i] += scheme_.stress_shift(cells[b]);
+    if (fibre_stretch_) (*fibre_stretch_)(e) = stretch[b];
     (*density_)(e) = density[b];
     (*energy_)(e) = energy[b];
     (*pressure_)(e) = -(T[b][0] + T[b][1] + T[b][2]) / 3;

@@ -24,7 +24,8 @@ class LagrangeFields {
   mfem::L2_FECollection constant_;
   mfem::ParFiniteElementSpace scalars_, vectors_, tensors_;
   FieldList fields_;
-  mfem::ParGridFunction *density_, *pressure_, *energy_, *ratio_, *order_, *velocity_, *stress_;
+  mfem::ParGridFunction *density_, *pressure_, *energy_, *ratio_, *order_, *velocity_, *stress_,
+      *fibre_stretch_ = nullptr;  // null: no rank has fibres
 };
 
 extern template class LagrangeFields<2>;

@@ -118,7 +118,8 @@ void LagrangeHistory<D>::add_energies(double time, std::vector<Quantity>& list) 
     in.F = F.data();
     in.time = time;
     closure.stored(in, psi.data());
-    for (std::size_t b = 0; b < run.size(); ++b) elastic += scheme_.mass(run[b]) * psi[b];
+    for (std::size_t b = 0; b < run.size(); ++b)
+      elastic += scheme_.mass(run[b]) * (psi[b] + scheme_.stored_shift(run[b]));
   });
   elastic = sum(elastic);
   const std::string J = extensive<D>("J");
@@ -158,6 +159,17 @@ void LagrangeHistory<D>::add_cells(std::vector<Quantity>& list) const {
   list.push_back({"cells_constant", "percent", 100 * x[3] / x[1]});
 }
 
+/// Where the body begins and ends along each axis.
+template <int D>
+void LagrangeHistory<D>::add_extent(std::vector<Quantity>& list) const {
+  for (int i = 0; i < D; ++i) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& x : scheme_.state().x) low = std::min(low, x[i]), high = std::max(high, x[i]);
+    list.push_back({fmt::format("{}_min", axes[i]), "m", min(low)});
+    list.push_back({fmt::format("{}_max", axes[i]), "m", max(high)});
+  }
+}
+
 template <int D>
 void LagrangeHistory<D>::add_markers(std::vector<Quantity>& list) const {
   for (const Marker& marker : markers_)
@@ -181,6 +193,7 @@ std::vector<Quantity> LagrangeHistory<D>::quantities(double time) const {
   add_energies(time, list);
   add_boundaries(list);
   add_cells(list);
+  add_extent(list);
   add_markers(list);
   return list;
 }

@@ -40,6 +40,7 @@ class LagrangeHistory {
   void add_energies(double time, std::vector<Quantity>& list) const;
   void add_boundaries(std::vector<Quantity>& list) const;
   void add_cells(std::vector<Quantity>& list) const;
+  void add_extent(std::vector<Quantity>& list) const;
   void add_markers(std::vector<Quantity>& list) const;
 
   const FlowScheme<D>& scheme_;

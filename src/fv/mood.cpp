@@ -7,8 +7,13 @@
 namespace titin {
 
 template <int D>
-Mood<D>::Mood(const SimplexMesh<D>& mesh, NodeExchange& exchange)
-    : mesh_(mesh), exchange_(exchange), order_(mesh.cells()), node_mark_(mesh.nodes()), cell_mark_(mesh.cells()) {
+Mood<D>::Mood(const SimplexMesh<D>& mesh, NodeExchange& exchange, Cascade cascade)
+    : mesh_(mesh),
+      exchange_(exchange),
+      cascade_(cascade),
+      order_(mesh.cells()),
+      node_mark_(mesh.nodes()),
+      cell_mark_(mesh.cells()) {
   nodes_.reserve(mesh.nodes());
   lowered_.reserve(mesh.cells());
   touched_.reserve(mesh.cells());
@@ -27,7 +32,8 @@ bool Mood<D>::lower(const std::vector<int>& troubled) {
   lowered_ = troubled;
   std::fill(node_mark_.begin(), node_mark_.end(), 0.0);
   for (int c : troubled) {
-    order_[c] = order_[c] == CellOrder::linear ? CellOrder::limited : CellOrder::constant;
+    const bool limited = order_[c] == CellOrder::linear && cascade_ == Cascade::limited;
+    order_[c] = limited ? CellOrder::limited : CellOrder::constant;
     for (int p : mesh_.nodes_of[c]) node_mark_[p] = 1;
   }
   exchange_.max(node_mark_.data(), 1);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fv/fv_config.hpp"
 #include "fv/node_exchange.hpp"
 
 namespace titin {
@@ -20,7 +21,7 @@ enum class CellOrder : std::int8_t { constant = 0, limited = 1, linear = 2 };
 template <int D>
 class Mood {
  public:
-  Mood(const SimplexMesh<D>& mesh, NodeExchange& exchange);
+  Mood(const SimplexMesh<D>& mesh, NodeExchange& exchange, Cascade cascade);
 
   void start(CellOrder order);
   CellOrder order(int cell) const { return order_[cell]; }
@@ -34,6 +35,7 @@ class Mood {
  private:
   const SimplexMesh<D>& mesh_;
   NodeExchange& exchange_;
+  Cascade cascade_;
   std::vector<CellOrder> order_;
   std::vector<double> node_mark_;
   std::vector<char> cell_mark_;

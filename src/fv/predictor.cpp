@@ -66,6 +66,7 @@ void take_stresses(const Closure& closure, double time, PredictedBlock<D>& block
       block.q[b][2] = T[b][0], block.q[b][3] = T[b][1], block.q[b][4] = T[b][3];
     else
       for (int k = 0; k < 6; ++k) block.q[b][3 + k] = T[b][k];
+    for (int i = 0; i < D; ++i) block.q[b][D + i] += block.shift[b];
   }
 }
 

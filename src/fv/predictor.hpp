@@ -24,6 +24,7 @@ struct PredictedBlock {
   std::array<CellFields<D>, cells_per_block> q;         // in: at the start of the step; out: at its middle
   std::array<Mat3, cells_per_block> F;                  // solids; in and out alike
   std::array<double, cells_per_block> density, energy;  // specific internal
+  std::array<double, cells_per_block> shift;            // of the mean stress (fv/patch_pressure.hpp), held
 };
 
 template <int D>

@@ -19,11 +19,57 @@ double kept(double change, double up, double down, double negligible) {
   return std::min(1.0, (change > 0 ? up : down) / change);
 }
 
+/// H S H, H = I - 2 n n.
+template <int D>
+Symmetric<D> reflected(const Symmetric<D>& S, const Vector<D>& n) {
+  const Vector<D> Sn = product<D>(S, n);
+  const double nn = dot(n, Sn);
+  Symmetric<D> image = S;
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j)
+      image[symmetric_index<D>(i, j)] += 4 * nn * n[i] * n[j] - 2 * (n[i] * Sn[j] + Sn[i] * n[j]);
+  return image;
+}
+
+/// Velocity and stress of the image of a cell.
+template <int D>
+CellFields<D> reflected_fields(const CellFields<D>& q, const Vector<D>& n) {
+  Vector<D> v = velocity_of<D>(q);
+  accumulate(v, -2 * dot(n, v), n);
+  const Symmetric<D> T = reflected<D>(stress_of<D>(q), n);
+  CellFields<D> image;
+  std::copy(v.begin(), v.end(), image.begin());
+  std::copy(T.begin(), T.end(), image.begin() + D);
+  return image;
+}
+
 }  // namespace
 
 template <int D>
-Reconstruction<D>::Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exchange)
-    : mesh_(mesh), exchange_(exchange), moments_(mesh.nodes()), extremes_(mesh.nodes()), judged_(mesh.nodes()) {}
+Reconstruction<D>::Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exchange,
+                                  const std::vector<Mirrors<D>>& mirrors)
+    : mesh_(mesh),
+      exchange_(exchange),
+      mirrors_(mirrors),
+      moments_(mesh.nodes()),
+      extremes_(mesh.nodes()),
+      judged_(mesh.nodes()) {}
+
+/// Of the images of all cells behind the plane.
+template <int D>
+typename Reconstruction<D>::Moments Reconstruction<D>::image(const Moments& m, const Vector<D>& n) {
+  Moments im = m;
+  accumulate(im.wr, -2 * dot(n, m.wr), n);
+  im.wrr = reflected<D>(m.wrr, n);
+  im.wq = reflected_fields<D>(m.wq, n);
+  CellFields<D> along{};
+  for (int i = 0; i < D; ++i) {
+    im.wrq[i] = reflected_fields<D>(m.wrq[i], n);
+    accumulate(along, n[i], im.wrq[i]);
+  }
+  for (int i = 0; i < D; ++i) accumulate(im.wrq[i], -2 * n[i], along);
+  return im;
+}
 
 template <int D>
 void Reconstruction<D>::gather(const FlowState<D>& state) {
@@ -51,6 +97,12 @@ void Reconstruction<D>::gather(const FlowState<D>& state) {
     judged_[p] = range;
   }
   exchange_.sum(&moments_[0].w, sizeof(Moments) / sizeof(double));
+  for (const Mirrors<D>& mirrors : mirrors_)
+    for (int k = 0; k < mirrors.count; ++k) {
+      const Moments im = image(moments_[mirrors.node], mirrors.normal[k]);
+      double* to = &moments_[mirrors.node].w;
+      for (std::size_t i = 0; i < sizeof(Moments) / sizeof(double); ++i) to[i] += (&im.w)[i];
+    }
   exchange_.max(&judged_[0].high[0], 2 * judged_count);
 }
 

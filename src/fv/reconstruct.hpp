@@ -7,14 +7,15 @@
 ///   with r = x_j - x_p, s = x_p - x_c:   S_c = sum_p [sum w r r + s (sum w r) + (sum w r) s + s s sum w]
 ///                                        r_c = sum_p [sum w r Q + s sum w Q - Q_c (sum w r + s sum w)],  g = S^-1 r.
 ///
-/// Linear fields are exact. The limiter is that of Barth & Jespersen (1989, AIAA 89-0366): no value at a corner leaves
-/// the range of the neighbours; one factor for all components of the velocity and one for those of the stress, so that
-/// it does not depend on the axes.
+/// Linear fields are exact. At planes of symmetry the images of the cells take part, v - 2 n n.v and H T H with
+/// H = I - 2 n n: one-sided slopes are unstable in bodies that are one or two cells wide between walls. The limiter is
+/// that of Barth & Jespersen (1989, AIAA 89-0366): no value at a corner leaves the range of the neighbours; one factor
+/// for all components of the velocity and one for those of the stress, so that it does not depend on the axes.
 #pragma once
 
 #include <vector>
 
-#include "fv/node_exchange.hpp"
+#include "fv/boundary.hpp"
 #include "fv/state.hpp"
 
 namespace titin {
@@ -35,7 +36,8 @@ Vector<D> divergence_of_stress(const Slopes<D>& g) {
 template <int D>
 class Reconstruction {
  public:
-  Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exchange);
+  /// `mirrors` stay the caller's.
+  Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exchange, const std::vector<Mirrors<D>>& mirrors);
 
   /// Takes in a state: moments, and the ranges that steps are judged by, about every node. Collective.
   void gather(const FlowState<D>& state);
@@ -48,6 +50,7 @@ class Reconstruction {
 
   /// What steps are judged by: density [kg/m^3], mean stress [Pa], components of the velocity [m/s].
   static constexpr int judged_count = 2 + D;
+  static constexpr int moment_bytes = sizeof(double) * (1 + D + symmetric_size<D> + (1 + D) * field_count<D>);
   static std::array<double, judged_count> judged(const CellRecord<D>& c) {
     std::array<double, judged_count> values{c.density, mean_stress<D>(c.q)};
     std::copy_n(c.q.begin(), D, values.begin() + 2);
@@ -76,7 +79,10 @@ class Reconstruction {
   };
 
   const SimplexMesh<D>& mesh_;
+  static Moments image(const Moments& m, const Vector<D>& n);
+
   NodeExchange& exchange_;
+  const std::vector<Mirrors<D>>& mirrors_;
   std::vector<Moments> moments_;        // [node]
   std::vector<Extremes> extremes_;      // [node]
   std::vector<JudgedExtremes> judged_;  // [node]

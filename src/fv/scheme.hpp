@@ -17,6 +17,7 @@
 #include "fv/closure.hpp"
 #include "fv/mood.hpp"
 #include "fv/nodal_solver.hpp"
+#include "fv/patch_pressure.hpp"
 #include "fv/predictor.hpp"
 
 namespace titin {
@@ -51,10 +52,15 @@ class FlowScheme {
   CellOrder order(int cell) const { return mood_.order(cell); }
   Mat3 deformation(int cell, const FlowState<D>& state) const;
   double internal_energy(int cell, const FlowState<D>& state) const;
+  /// By how much averaged pressures change the mean stress [Pa] and the stored energy [J/kg] of the accepted state.
+  double stress_shift(int cell) const { return patches_ ? patches_->stress(cell) : 0; }
+  double stored_shift(int cell) const;
   /// Calls work(cells, closure) for runs of at most cells_per_block of these cells that share a closure.
   template <class Work>
   void for_blocks(std::span<const int> cells, Work work) const;
   std::span<const int> all_cells() const { return all_; }
+  /// What a step moves at the least when no array stays in a cache from one loop over it to the next; this rank's.
+  double bytes_per_step() const;
 
  private:
   struct Source {  // where fields, slopes and impedances come from, and the geometry of the forces
@@ -74,8 +80,8 @@ class FlowScheme {
   bool is_smooth(int cell, const Slopes<D>& g) const;
   bool has_meaning(int cell) const;
   std::string judge(double t, double dt);
-  std::string failure() const;
-  double acoustic_dt() const;
+  std::string failure(bool judged) const;
+  double next_dt(double dt) const;
   double filling_time() const;
   void half_step(double t, double dt);
 
@@ -93,12 +99,36 @@ class FlowScheme {
   NodalSolver<D> nodes_;
   Mood<D> mood_;
   FlowState<D> now_, next_;
-  std::unique_ptr<FlowState<D>> half_;  // of rk2 alone
+  std::unique_ptr<FlowState<D>> half_;         // of rk2 alone
+  std::unique_ptr<PatchPressure<D>> patches_;  // of fv.patch_pressure alone
   std::vector<Vector<D>> half_x_;
   Source source_{};
   double largest_dt_ = 0;
   bool nodes_have_moved_ = false;  // is there a velocity of nodes to compare cells with?
 };
+
+/// Each loop reads or writes an array once, a write also reads (fetch of the line): node arrays that cells gather from
+/// are still in the cache, since neighbours are near. In the order of the loops; the rare repair of cells is left out.
+template <int D>
+double FlowScheme<D>::bytes_per_step() const {
+  constexpr double index = sizeof(int), number = sizeof(double), record = sizeof(CellRecord<D>);
+  constexpr double corners = (D + 1) * sizeof(CornerForce<D>), place = sizeof(Vector<D>), write = 2;
+  constexpr double cell_nodes = (D + 1) * index, judged = 2 * Reconstruction<D>::judged_count * number;
+  const double gather_cell = record + cell_nodes,
+               gather_node = place + write * (Reconstruction<D>::moment_bytes + judged);
+  const double corners_cell = record + number + cell_nodes + sizeof(Matrix<D>) + sizeof(void*) + 2 * number +
+                              write * corners,  // energy; closure; speed and stiffening
+      corners_node = 3 * place + Reconstruction<D>::moment_bytes;
+  const double solve_cell = corners + cell_nodes, solve_node = write * (sizeof(Symmetric<D>) + 2 * place);
+  const double move_node = 2 * place + write * place;
+  const double update_cell = corners + cell_nodes + (1 + write) * record + sizeof(Matrix<D>) + sizeof(void*) +
+                             sizeof(WaveMemory) + (3 + 4 * write) * number,  // mass, energies, volume, speed, crossing
+      update_node = 2 * place;
+  const double judge_cell = 2 * record + cell_nodes + 6 * number + sizeof(void*), judge_node = judged + place;
+  const double accept_cell = 3 * number;
+  return mesh_.cells() * (gather_cell + corners_cell + solve_cell + update_cell + judge_cell + accept_cell) +
+         mesh_.nodes() * (gather_node + corners_node + solve_node + move_node + update_node + judge_node);
+}
 
 template <int D>
 template <class Work>

@@ -46,6 +46,7 @@ std::string RunSummary::json() const {
       {"stepping_seconds", stepping_seconds},
       {"peak_rss_bytes", peak_rss_bytes},
       {"timers", timer_table},
+      {"speed", speed},
       {"warnings", warnings},
       {"unused_options", unused_options},
       {"errors", errors},

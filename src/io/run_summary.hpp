@@ -35,6 +35,8 @@ struct RunSummary {
     long calls = 0;
   };
   std::map<std::string, Timer> timers;
+  /// Of explicit formulations: cell-steps per CPU-second, what memory allows of them, and what that follows from.
+  std::map<std::string, double> speed;
   int warnings = 0;
   std::vector<std::string> unused_options;     ///< of PETSc that the scene gives and no solver asked for
   std::map<std::string, double> errors;        ///< norms by name, where a reference is known

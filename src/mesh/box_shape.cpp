@@ -7,11 +7,14 @@ namespace titin {
 
 void BoxShape::bind(Section& s) {
   s.read("origin", origin, {.unit = "m", .doc = "where the corner of least coordinates lies"});
-  s.read("inner_radius", inner_radius,
-         {.unit = "m",
-          .range = non_negative,
-          .doc = "bends the box about the z axis: x becomes the distance from it beyond this one, y the length of the "
-                 "arc at this one; x- is then the inner side, y- lies in the plane y = 0"});
+  s.read(
+      "inner_radius", inner_radius,
+      {.unit = "m",
+       .range = non_negative,
+       .doc = "bends the box: x becomes the distance from the axis or the centre beyond this one, y (of a sphere also "
+              "z) the length of the arc at this one; x- is then the inner side, y- lies in the plane y = 0"});
+  s.choose("bend", bend, {{"cylinder", Bend::cylinder}, {"sphere", Bend::sphere}},
+           {.doc = "about the z axis, or about the origin: y and z then run between planes through it"});
   s.read("skew", skew,
          {.unit = "m",
           .doc = "bends the planes of nodes across x: x grows by skew (1 - y / b) sin(pi x / a), a and b the edges of "
@@ -26,8 +29,17 @@ void BoxShape::apply(mfem::ParMesh& mesh) const {
     x[0] += skew * (1 - x[1] / upper(1)) * std::sin(std::numbers::pi * x[0] / upper(0));
     if (inner_radius > 0) {
       const double radius = inner_radius + x[0], angle = x[1] / inner_radius;
-      x[0] = radius * std::cos(angle);
-      x[1] = radius * std::sin(angle);
+      if (bend == Bend::sphere) {
+        const bool plane = mesh.Dimension() == 2;
+        const double y = std::tan(angle), z = plane ? 0 : std::tan(x[2] / inner_radius);
+        const double along = radius / std::sqrt(1 + y * y + z * z);
+        x[0] = along;
+        x[1] = along * y;
+        if (!plane) x[2] = along * z;
+      } else {
+        x[0] = radius * std::cos(angle);
+        x[1] = radius * std::sin(angle);
+      }
     }
     for (int i = 0; i < mesh.Dimension(); ++i) x[i] += origin[i];
   }

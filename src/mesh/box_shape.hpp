@@ -8,9 +8,12 @@
 
 namespace titin {
 
+enum class Bend { cylinder, sphere };
+
 struct BoxShape {
   std::array<double, 3> origin{};  // [m] of the corner that is the smallest in all coordinates
   double inner_radius = 0;         // [m] 0: straight
+  Bend bend = Bend::cylinder;      // what it becomes a part of
   double skew = 0;                 // [m]
   void bind(Section& s);
   /// Moves the nodes of a box that begins at 0. Skewed first, then bent, then moved. Collective.

@@ -164,6 +164,7 @@ class Run {
     summary_.errors = scene_.reference.errors();
     for (const Quantity& q : scene_.model->errors()) summary_.errors[q.name] = q.value;
     add_costs(summary_);
+    if (scene_.clock.by_stability) add_explicit_speed(summary_, *scene_.model);
     folder_.write("run.json", summary_.json());
     log_timers(summary_);
     if (scene_.clock.by_stability) log_explicit_speed(summary_);

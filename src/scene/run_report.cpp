@@ -4,6 +4,7 @@
 #include <sstream>
 #include <vector>
 
+#include "base/bandwidth.hpp"
 #include "base/log.hpp"
 #include "base/parallel.hpp"
 #include "base/timers.hpp"
@@ -47,12 +48,26 @@ void log_timers(const RunSummary& summary) {
     logging::detail("{:<24}  {:>10.3f}  {:>10.3f}  {:>9}", name, t.wall, t.cpu, t.calls);
 }
 
-void log_explicit_speed(const RunSummary& summary) {
+void add_explicit_speed(RunSummary& summary, const Model& model) {
   double cpu = 0;
   for (const char* phase : {"step", "accept"})
     if (const auto found = summary.timers.find(phase); found != summary.timers.end()) cpu += found->second.cpu;
-  if (cpu > 0)
-    logging::info("{:.3g} cell-steps per CPU-second", static_cast<double>(summary.cells) * summary.steps / cpu);
+  const double bytes = model.bytes_per_step() / static_cast<double>(summary.cells);
+  const double bandwidth = sum(triad_bandwidth()) / ranks();
+  if (!(cpu > 0 && bytes > 0)) return;
+  summary.speed = {{"cell_steps_per_cpu_second", static_cast<double>(summary.cells) * summary.steps / cpu},
+                   {"bytes_per_cell_step", bytes},
+                   {"triad_bytes_per_cpu_second", bandwidth},
+                   {"memory_bound", bandwidth / bytes}};
+}
+
+void log_explicit_speed(const RunSummary& summary) {
+  if (summary.speed.empty()) return;
+  const auto& of = summary.speed;
+  logging::info(
+      "{:.3g} cell-steps per CPU-second; memory allows {:.3g}: {:.0f} bytes a cell and step, {:.3g} GB/s (triad)",
+      of.at("cell_steps_per_cpu_second"), of.at("memory_bound"), of.at("bytes_per_cell_step"),
+      1e-9 * of.at("triad_bytes_per_cpu_second"));
 }
 
 }  // namespace titin

@@ -16,7 +16,9 @@ void add_costs(RunSummary& summary);
 void add_step(RunSummary& summary, const Step& step);
 /// The phases and what they took, longest first, into the log.
 void log_timers(const RunSummary& summary);
-/// The figure of merit of explicit formulations, into the log.
+/// The figure of merit of explicit formulations and the bound that memory sets it (roofline: Williams, Waterman,
+/// Patterson 2009, Commun. ACM 52:65). Collective.
+void add_explicit_speed(RunSummary& summary, const Model& model);
 void log_explicit_speed(const RunSummary& summary);
 
 }  // namespace titin

@@ -57,6 +57,8 @@ class Model {
   virtual std::vector<Quantity> conservation() { return {}; }
   /// Relative norms of the accepted state's error, where the exact solution is known. Collective.
   virtual std::vector<Quantity> errors() { return {}; }
+  /// Bytes that an explicit step has to move between memory and cores, all ranks: what bounds its speed. Collective.
+  virtual double bytes_per_step() const { return 0; }
   /// Name of the quantity that the line of a step shows.
   virtual std::string shown_quantity() const = 0;
   virtual void update_fields() = 0;

@@ -231,6 +231,7 @@ BoundaryCondition<D> wall(std::vector<int> sides) {
   condition.name = "wall";
   condition.attributes = std::move(sides);
   condition.normal_velocity = &at_rest;
+  condition.mirrors = true;
   return condition;
 }
 

@@ -178,7 +178,8 @@ TYPED_TEST(Invariants, LinearFieldsAreReconstructedOnDistortedMeshes) {
   const auto mesh = unit_box<D>(4, 0.3);
   SimplexMesh<D> cells(*mesh);
   NodeExchange exchange(*mesh, cells);
-  Reconstruction<D> reconstruction(cells, exchange);
+  const std::vector<Mirrors<D>> no_mirrors;
+  Reconstruction<D> reconstruction(cells, exchange, no_mirrors);
   FlowState<D> state(cells.cells(), cells.nodes());
   state.x = cells.x;
   const auto slope = [](int f, int i) { return std::sin(1 + 3 * f + i); };
