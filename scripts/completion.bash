@@ -5,10 +5,9 @@
 # A key comes one part at a time; where the name is yours (materials.NAME), those of the scene on the line are offered.
 if [ -n "${ZSH_VERSION:-}" ]; then autoload -U +X compinit bashcompinit && compinit && bashcompinit; fi
 
-_titin_commands='run check inspect materials keys help'
+_titin_commands='run check materials keys help'
 _titin_options_run='-h --help -o --overwrite -v -q'
 _titin_options_check='-h --help'
-_titin_options_inspect='-h --help'
 _titin_options_materials='-h --help --json'
 _titin_options_keys='-h --help --json'
 _titin_options_help='-h --help'
@@ -29,6 +28,9 @@ boundary.<NAME>.obstacle.normal
 boundary.<NAME>.obstacle.point
 boundary.<NAME>.on
 boundary.<NAME>.pressure
+boundary.<NAME>.rail.along
+boundary.<NAME>.rail.force
+boundary.<NAME>.rail.mass
 boundary.<NAME>.spring
 boundary.<NAME>.traction
 boundary.<NAME>.traction_scale
@@ -59,12 +61,22 @@ exact.riemann.right.density
 exact.riemann.right.pressure
 exact.riemann.right.velocity
 exact.solution
+exact_motion.blake.pressure
+exact_motion.blake.radius
+exact_motion.bulk_modulus
+exact_motion.density
+exact_motion.shear_modulus
+exact_motion.solution
+exact_motion.swing.amplitude
+exact_motion.swing.length
+fv.cascade
 fv.cfl
 fv.first_step
 fv.growth
 fv.impedance
 fv.limiter
 fv.order
+fv.patch_pressure
 fv.predictor
 fv.principle_tolerance
 fv.range_tolerance
@@ -85,6 +97,9 @@ initial.<NAME>.velocity
 initial.centre
 initial.spin
 initial.velocity
+link.<NAME>.between
+link.<NAME>.damper
+link.<NAME>.spring
 markers.<NAME>
 materials.<NAME>.density
 materials.<NAME>.fibre
@@ -304,6 +319,7 @@ mesh.cells
 mesh.file
 mesh.kind
 mesh.refine
+mesh.shape.bend
 mesh.shape.inner_radius
 mesh.shape.origin
 mesh.shape.skew
@@ -346,9 +362,13 @@ title'
 _titin_choices='boundary.<NAME>.clamp true false
 boundary.<NAME>.exact none pressure velocity
 boundary.<NAME>.obstacle.contact slip stick
+boundary.<NAME>.rail.along x y z
 boundary.<NAME>.wall true false
 exact.solution none kidder riemann noh
+exact_motion.solution none swing blake
+fv.cascade limited constant
 fv.limiter mood barth_jespersen none
+fv.patch_pressure true false
 fv.predictor hancock ader rk2
 initial.<NAME>.motion uniform radial twist swing bend
 materials.<NAME>.fibre_invariants isochoric full
@@ -368,6 +388,7 @@ materials.<NAME>.terms.<NAME>.prony.reference long_term instantaneous
 materials.<NAME>.terms.<NAME>.spectrum.reference long_term instantaneous
 materials.<NAME>.volumetric.law simo quad log quad_log
 mesh.kind tensor simplices wedges
+mesh.shape.bend cylinder sphere
 model muscle lagrange
 muscle.element three_field displacement
 muscle.ellipticity true false
