@@ -10,6 +10,7 @@ import json
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -143,6 +144,7 @@ def main():
     if os.environ.get("TITIN_TEST_SLURM") != "1" or missing():
         print(f"skipped: set TITIN_TEST_SLURM=1{'; missing: ' + ', '.join(missing()) if missing() else ''}")
         return SKIPPED
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # the daemons are ended then, too
     titin = str(pathlib.Path(sys.argv[1]).absolute())
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
