@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <new>
+#include <utility>
 
 #include "base/config.hpp"
 #include "base/log.hpp"
@@ -37,11 +38,16 @@ struct Driver {
     keys = app.add_subcommand("keys", "List what a scene may say");
     help = app.add_subcommand("help", "Print this");
     for (CLI::App* with_scene : {run, check}) {
-      with_scene->add_option("SCENE", options.scene_file, "Scene file (TOML)")->required();
+      with_scene->add_option("SCENE", options.scene_file, "Scene file (TOML)")->required(with_scene == check);
       with_scene->add_option("key=value", options.overrides, "Replace values of the scene: time.step=\"10 ms\"");
     }
     run->add_option("-o", options.folder, "Output folder (default: results/<name of the scene>)")->type_name("DIR");
     run->add_flag("--overwrite", options.overwrite, "Replace an earlier run in the output folder");
+    run->add_option("--restart", options.restart,
+                    "Go on with an earlier run from its last checkpoint, or from the one named; SCENE may be left out")
+        ->type_name("RUN")
+        ->excludes("-o")
+        ->excludes("--overwrite");
     run->add_flag("-v", verbosity, "Say more; -vv: all");
     run->add_flag("-q", quiet, "Say only warnings and errors");
     inspect->add_option("RUNDIR", folder, "Folder of a run, such as results/block")->required();
@@ -62,6 +68,14 @@ struct Driver {
     if (keys->parsed()) print_keys(prefix, json);
     if (check->parsed()) check_scene(options);
     return run->parsed() ? static_cast<int>(titin::run(options)) : 0;
+  }
+
+  /// A restart may leave out the scene: then the first word is an override.
+  void sort_words() {
+    if (!run->parsed()) return;
+    if (options.restart.empty() && options.scene_file.empty()) throw CLI::RequiredError("SCENE");
+    if (options.restart.empty() || options.scene_file.find('=') == std::string::npos) return;
+    options.overrides.insert(options.overrides.begin(), std::exchange(options.scene_file, ""));
   }
 };
 
@@ -109,6 +123,7 @@ int main(int argc, char** argv) {
   Driver driver;
   try {
     driver.app.parse(argc, argv);
+    driver.sort_words();
   } catch (const CLI::ParseError& error) {
     return explain(driver.app, error);
   }

@@ -5,9 +5,10 @@
 # A key comes one part at a time; where the name is yours (materials.NAME), those of the scene on the line are offered.
 if [ -n "${ZSH_VERSION:-}" ]; then autoload -U +X compinit bashcompinit && compinit && bashcompinit; fi
 
-_titin_commands='run check materials keys help'
-_titin_options_run='-h --help -o --overwrite -v -q'
+_titin_commands='run check inspect materials keys help'
+_titin_options_run='-h --help -o --overwrite --restart -v -q'
 _titin_options_check='-h --help'
+_titin_options_inspect='-h --help'
 _titin_options_materials='-h --help --json'
 _titin_options_keys='-h --help --json'
 _titin_options_help='-h --help'
@@ -334,10 +335,18 @@ muscle.inertia
 muscle.order
 muscle.pennation_axis
 muscle.quadrature
+output.checkpoint_every
+output.checkpoint_interval
+output.checkpoint_keep
 output.every
 output.fields
+output.format
 output.history_every
 output.interval
+output.jumps
+output.precision
+output.times
+output.wall_limit
 petsc.<NAME>
 reference.history
 solver.energy_tolerance
@@ -396,6 +405,9 @@ muscle.error_estimate true false
 muscle.fibre_rate stretch_difference velocity_gradient
 muscle.inertia dynamic quasi-static
 output.fields true false
+output.format vtu vtkhdf vtkhdf_transient
+output.jumps nodes means kept
+output.precision single double
 solver.globalisation line_search trust_region
 solver.inexact true false
 solver.linear auto direct block condensed

@@ -59,19 +59,36 @@ void Config::finish() {
 
 const std::vector<KeyRecord>& Config::keys() const { return scene_->records; }
 
+namespace {
+
+/// Where a formulation asked whether a key is there, writing out its default would change the answer.
+bool stays_away(const SceneText& scene, const ResolvedKey& key) {
+  const std::string path = join_path(key.table, key.name);
+  return !key.given && std::any_of(scene.absent.begin(), scene.absent.end(),
+                                   [&](const std::string& asked) { return (path + ".").rfind(asked + ".", 0) == 0; });
+}
+
+}  // namespace
+
+std::vector<std::string> Config::settings() const {
+  std::vector<std::string> list;
+  for (const ResolvedKey& key : scene_->resolved) {
+    if (key.value.empty() || stays_away(*scene_, key)) continue;
+    const std::string path = join_path(key.table, key.name);
+    const std::string value = key.names_file ? file_digest(key.value.substr(1, key.value.size() - 2)) : key.value;
+    list.push_back(fmt::format("{} = {}", path, value));
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
 std::string Config::resolved() const {
   const SceneText& scene = *scene_;
-  // Where a formulation asked whether a key is there, writing out its default would change the answer.
-  const auto stays_away = [&](const ResolvedKey& key) {
-    const std::string path = join_path(key.table, key.name);
-    return !key.given && std::any_of(scene.absent.begin(), scene.absent.end(),
-                                     [&](const std::string& asked) { return (path + ".").rfind(asked + ".", 0) == 0; });
-  };
   std::string text;
   for (const std::string& table : scene.walked) {
     std::string lines;
     for (const ResolvedKey& key : scene.resolved)
-      if (key.table == table && !key.value.empty() && !stays_away(key))
+      if (key.table == table && !key.value.empty() && !stays_away(scene, key))
         lines += fmt::format("{} = {}\n", join_path("", key.name), key.value);
     if (lines.empty() && !scene.tables.count(table)) continue;
     if (!table.empty()) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);

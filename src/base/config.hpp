@@ -163,6 +163,9 @@ class Config {
   const std::vector<KeyRecord>& keys() const;
   /// The scene as it was understood, in SI units, defaults included: a scene file that runs the same.
   std::string resolved() const;
+  /// The same as "path = value", in order; for a file a digest of what it holds. Two scenes with the same settings say
+  /// the same. Collective.
+  std::vector<std::string> settings() const;
 
  private:
   Config();

@@ -31,7 +31,7 @@ struct Complaint {
 /// A line of resolved.toml.
 struct ResolvedKey {
   std::string table, name, value;
-  bool given = false;
+  bool given = false, names_file = false;
 };
 
 struct SceneText {

@@ -189,7 +189,7 @@ std::string Section::existing_file(std::string_view name, const std::string& fil
     return "";
   }
   const std::string absolute = fs::absolute(path).lexically_normal().string();
-  scene_->keep({path_, std::string(name), toml_string(absolute), true});
+  scene_->keep({path_, std::string(name), toml_string(absolute), true, true});
   return absolute;
 }
 

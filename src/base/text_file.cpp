@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/digest.hpp"
 #include "base/parallel.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
@@ -148,6 +149,15 @@ TextFile read_text_file(const std::string& path) {
   file.problem = broadcast(file.problem);
   file.text = broadcast(file.text);
   return file;
+}
+
+std::string file_digest(const std::string& path) {
+  Digest digest;
+  std::ifstream in(is_root() ? path : "", std::ios::binary);
+  std::vector<char> part(1 << 16);
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0)
+    digest.add(std::string_view(part.data(), in.gcount()));
+  return broadcast(fmt::format("file {:016x}", digest.value()));
 }
 
 std::string file_problem(const std::string& path) { return broadcast(is_root() ? problem_here(path) : ""); }

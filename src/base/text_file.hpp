@@ -11,6 +11,7 @@ struct TextFile {
   std::string text, problem;
 };
 TextFile read_text_file(const std::string& path);   ///< collective
+std::string file_digest(const std::string& path);   ///< of what it holds, in words; collective
 std::string file_problem(const std::string& path);  ///< "" when there is such a file; collective
 
 /// Columns of numbers, parted by white space or commas. '#' starts a comment. A line may head them, "name" or "name

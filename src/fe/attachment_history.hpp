@@ -18,6 +18,7 @@ class AttachmentHistory {
 
   /// Takes in an accepted step; the same u, v, step and weight of its end as MuscleHistory. Collective.
   void update(const mfem::Vector& u, const mfem::Vector& v, const StepState& step, double end_weight);
+  void walk(StateWalk& walk);
   void list(std::vector<Quantity>& quantities) const;
   double work() const;      ///< of the forces on plates, so far [J]
   double in_loads() const;  ///< what their loads have got since the start [J]

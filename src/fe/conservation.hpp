@@ -26,6 +26,7 @@ class Conservation {
     }
   }
 
+  void walk(StateWalk& walk);
   /// The largest so far: error of the energy balance over the largest energy or work, and change of the volume over the
   /// volume at the start.
   std::vector<Quantity> list() const {

@@ -16,6 +16,7 @@ class EllipticityWatch {
 
   /// Takes in an accepted state. Collective.
   void update(const mfem::Vector& u, const StepState& step);
+  void walk(StateWalk& walk) { walk.number("warned_of_ellipticity", warned_); }
   const std::vector<double>& smallest() const { return smallest_; }  ///< of each cell of this rank [Pa]
   /// The smallest value of all, and in how many cells it is negative. Collective.
   std::vector<Quantity> quantities() const;

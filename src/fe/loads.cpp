@@ -202,6 +202,19 @@ void FaceLoads::reset_multipliers() {
   for_each_wall_point([](int, const Face&, Point& point) { point.multiplier = point.multiplier_old; });
 }
 
+/// Multipliers of walls, as accepted last.
+void FaceLoads::walk(StateWalk& walk, const StateRows& cells) {
+  std::vector<int> sizes(faces_of_cell_.size());
+  std::vector<double> multipliers;
+  for_each_wall_point([&](int cell, const Face&, const Point& point) {
+    ++sizes[cell];
+    multipliers.push_back(point.multiplier_old);
+  });
+  walk.ragged("wall_multipliers", cells, sizes, multipliers.data());
+  auto next = multipliers.begin();
+  for_each_wall_point([&](int, const Face&, Point& point) { point.multiplier = point.multiplier_old = *next++; });
+}
+
 SupportState FaceLoads::support_state(const BoundaryConfig& boundary, double time, const MotionOfCell& motion) const {
   SupportState state;
   state.gap = std::numeric_limits<double>::infinity();

@@ -10,6 +10,7 @@
 #include "fe/rails.hpp"
 #include "fe/supports.hpp"
 #include "mesh/mesh.hpp"
+#include "solve/state_walk.hpp"
 
 namespace titin {
 
@@ -78,6 +79,7 @@ class FaceLoads {
   void augment(double time, const MotionOfCell& motion);  ///< takes the pressures for multipliers
   void accept_multipliers();
   void reset_multipliers();  ///< to those accepted last
+  void walk(StateWalk& walk, const StateRows& cells);
 
  private:
   struct Point {

@@ -34,6 +34,8 @@ class Muscle : public Model {
   const std::vector<Field>& fields() const override { return fields_.fields(); }
   mfem::ParMesh& mesh() override { return *mesh_.mesh; }
   long unknowns() const override { return static_cast<long>(space_.GlobalTrueVSize()); }
+  void walk_state(StateWalk& walk) override;
+  void forget() override;
   MuscleSystem& system() { return system_; }
   const mfem::Vector& displacement() const { return integrator_.u(); }
   const Integrator& motion() const { return integrator_; }

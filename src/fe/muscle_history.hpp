@@ -27,6 +27,7 @@ class MuscleHistory {
   void update(const mfem::Vector& u, const mfem::Vector& v, const StepState& step);
   /// Collective.
   std::vector<Quantity> quantities() const;
+  void walk(StateWalk& walk, const StateRows& cells, const StateRows& dofs);
   const std::string& shown() const { return shown_; }
 
  private:

@@ -51,6 +51,7 @@ struct StepState {
   StepState(const Integrator& integrator, double time);
   /// One of backward Euler.
   StepState(double time, double dt, const mfem::Vector& u_old, const mfem::Vector& v_old);
+  void walk(StateWalk& walk, const StateRows& dofs);
 };
 
 class MuscleSystem : public NonlinearSystem {
@@ -88,6 +89,8 @@ class MuscleSystem : public NonlinearSystem {
   /// none does. Collective.
   bool augment(const mfem::Vector& u);
   void reset_multipliers() { loads_.reset_multipliers(); }
+  /// What the last accepted step has left: its data, what points remember, forces, multipliers. Collective.
+  void walk(StateWalk& walk, const StateRows& cells, const StateRows& dofs);
   /// Displacement and velocity of cells at u, for supports: good while both live.
   FaceLoads::MotionOfCell motion_of(const std::vector<double>& u_cells, const std::vector<double>& v_cells) const;
   /// The forces of the last residual() become those of the beginning of the next step.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/config.hpp"
+#include "solve/state_walk.hpp"
 
 namespace titin {
 
@@ -55,6 +56,7 @@ class PlateForces {
   /// `acceleration`: true dofs. Collective.
   void update(const Rails& rails, double time, const mfem::Vector& acceleration);
   void accept() { driving_old_ = driving_; }
+  void walk(StateWalk& walk) { walk.common("plates_driving", driving_old_); }
   /// Adds them to the residual at carriers, as a step with this weight of forces balances them; to `absolute` their
   /// sizes.
   void add(const Rails& rails, double force_weight, mfem::Vector& R) const;

@@ -32,6 +32,7 @@ class Lagrange final : public Model {
   mfem::ParMesh& mesh() override { return *mesh_.mesh; }
   long unknowns() const override;
   double bytes_per_step() const override;
+  void walk_state(StateWalk& walk) override;
   const FlowScheme<D>& scheme() const { return scheme_; }
 
  private:

@@ -18,6 +18,7 @@ class LagrangeHistory {
 
   /// Takes in the step that was just accepted. Collective.
   void follow(double dt);
+  void walk(StateWalk& walk);
   /// Of the accepted state. Collective.
   std::vector<Quantity> quantities(double time) const;
   /// The largest over all states: what momentum and total energy miss beside what boundaries brought, over the largest

@@ -25,6 +25,7 @@ class Mood {
 
   void start(CellOrder order);
   CellOrder order(int cell) const { return order_[cell]; }
+  void set_order(int cell, CellOrder order) { order_[cell] = order; }  ///< of an accepted step that is read back
   /// Lowers the cells in trouble. Collective: false when no rank has any.
   bool lower(const std::vector<int>& troubled);
   /// After lower: nodes that move anew, cells whose corners change, cells that those nodes belong to.

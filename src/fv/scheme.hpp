@@ -19,6 +19,7 @@
 #include "fv/nodal_solver.hpp"
 #include "fv/patch_pressure.hpp"
 #include "fv/predictor.hpp"
+#include "solve/state_walk.hpp"
 
 namespace titin {
 
@@ -41,6 +42,8 @@ class FlowScheme {
   std::string advance(double t, double dt);
   /// Makes the tried step the accepted state. Collective.
   void accept(double dt);
+  /// The accepted state and what is kept to save work. Collective.
+  void walk(StateWalk& walk, const StateRows& cells, const StateRows& nodes);
   double largest_dt() const { return largest_dt_; }  ///< longest step from the accepted state [s]
 
   const FlowState<D>& state() const { return now_; }

@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 /// Files that a run writes, as paths inside its folder.
 const std::regex& ours() {
   static const std::regex names(
-      R"((resolved\.toml|run\.log|run\.json|history\.csv)(\.part)?|fields/fields\.pvd|fields/Cycle\d+/(data\.pvtu|proc\d+\.vtu))");
+      R"((resolved\.toml|run\.log|run\.json|history\.csv)(\.part)?|fields/fields\.pvd(\.part)?|)"
+      R"(fields/Cycle\d+/(data\.pvtu|proc\d+\.vtu)|fields/fields(_\d+)?\.vtkhdf|fields/fields\.vtkhdf\.series(\.part)?|)"
+      R"(checkpoints/step_\d+\.h5(\.part)?)");
   return names;
 }
 
@@ -54,9 +56,9 @@ void clear(const fs::path& folder) {
     if (fs::is_empty(*it)) fs::remove(*it);
 }
 
-std::string make(const fs::path& folder) {
+std::string make(const fs::path& folder, bool keep) {
   try {
-    if (fs::exists(folder)) clear(folder);
+    if (fs::exists(folder) && !keep) clear(folder);
     fs::create_directories(folder);
     const fs::path probe = folder / "run.json.part";
     const bool writable = static_cast<bool>(std::ofstream(probe) << '\n' << std::flush);
@@ -80,7 +82,13 @@ std::string RunFolder::problem(const std::string& path, bool overwrite) {
 
 RunFolder::RunFolder(const std::string& path, bool overwrite) : path_(path) {
   stop_at(path, broadcast(is_root() ? problem_here(path, overwrite) : ""));
-  stop_at(path, broadcast(is_root() ? make(path) : ""));
+  stop_at(path, broadcast(is_root() ? make(path, false) : ""));
+}
+
+RunFolder RunFolder::of_restart(const std::string& path) {
+  stop_at(path, broadcast(is_root() && !is_run(path) ? "holds no run of Titin that could go on" : ""));
+  stop_at(path, broadcast(is_root() ? make(path, true) : ""));
+  return RunFolder(path);
 }
 
 void RunFolder::write(const std::string& name, const std::string& text) const {

@@ -12,6 +12,8 @@ class RunFolder {
   static std::string problem(const std::string& path, bool overwrite);
   /// Makes the folder, or empties it of an earlier run's files. Collective. Throws InputError when `problem` is one.
   RunFolder(const std::string& path, bool overwrite);
+  /// The folder of an earlier run that goes on: nothing of it is removed. Collective. Throws InputError.
+  static RunFolder of_restart(const std::string& path);
 
   const std::string& path() const { return path_; }
   std::string file(const std::string& name) const { return path_ + "/" + name; }
@@ -19,6 +21,7 @@ class RunFolder {
   void write(const std::string& name, const std::string& text) const;
 
  private:
+  explicit RunFolder(const std::string& path) : path_(path) {}
   std::string path_;
 };
 

@@ -8,6 +8,16 @@
 
 namespace titin {
 
+void RunSummary::walk(StateWalk& walk) {
+  std::vector<double> counts(newton.per_step.begin(), newton.per_step.end());
+  walk.common("summary_newton_per_step", counts);
+  newton.per_step.assign(counts.begin(), counts.end());
+  walk.common("summary_last_residuals", newton.last_residuals);
+  walk.number("summary_newton_failed", newton.failed);
+  walk.number("summary_newton_rejected", newton.rejected);
+  walk.number("summary_krylov", krylov);
+}
+
 std::string RunSummary::json() const {
   using Json = nlohmann::ordered_json;
   const auto& counts = newton.per_step;
@@ -36,6 +46,7 @@ std::string RunSummary::json() const {
       {"ranks", ranks},
       {"cells", cells},
       {"unknowns", unknowns},
+      {"restarted_at_step", restarted_at < 0 ? Json(nullptr) : Json(restarted_at)},
       {"steps", steps},
       {"rejected", rejected},
       {"time", time},

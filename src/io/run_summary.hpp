@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "solve/state_walk.hpp"
+
 namespace titin {
 
 struct RunSummary {
@@ -15,6 +17,7 @@ struct RunSummary {
   int ranks = 1;
   long cells = 0, unknowns = 0;
 
+  long restarted_at = -1;       ///< step of the checkpoint that this run went on from; -1: from the beginning
   int steps = 0, rejected = 0;  ///< accepted; tried with success, but with too large an error
   double time = 0;              ///< [s] reached
   struct {
@@ -43,6 +46,8 @@ struct RunSummary {
   std::map<std::string, double> conservation;  ///< what should stay zero
 
   std::string json() const;
+  /// What a restarted run counts on from.
+  void walk(StateWalk& walk);
 };
 
 }  // namespace titin

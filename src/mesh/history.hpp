@@ -19,6 +19,8 @@ class History {
   double* old(int cell) { return old_.data() + first_[cell]; }
   double* now(int cell) { return now_.data() + first_[cell]; }
   const double* old(int cell) const { return old_.data() + first_[cell]; }
+  std::vector<double>& all_old() { return old_; }
+  std::vector<double>& all_now() { return now_; }
   /// Makes t_n+1 the past: when a step is accepted, and once after the rows at rest were written.
   void commit() { std::copy(now_.begin(), now_.end(), old_.begin()); }
 

@@ -196,7 +196,9 @@ NamedMesh NamedMesh::read(const MeshConfig& config, Section section) {
   if (!has_box && !has_fit_size(serial.GetNE(), growth(serial.Dimension()), "file", section)) return named;
   if (serial.Dimension() == 2) named.thickness = config.thickness;
   for (int i = 0; i < config.refine; ++i) serial.UniformRefinement();
-  auto mesh = std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, serial);
+  const std::unique_ptr<int[]> rank_of(serial.GeneratePartitioning(ranks()));
+  auto mesh = std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, serial, rank_of.get());
+  named.numbers = MeshNumbers(serial, rank_of.get());
   if (const long inverted = sum(static_cast<long>(inverted_cells(*mesh))); inverted > 0)
     section.error("file", fmt::format("{} of {} are inside out", inverted, count(mesh->GetGlobalNE(), "cell")),
                   "number the nodes of a cell as Gmsh does, and move those that make cells too slanted");

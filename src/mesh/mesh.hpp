@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/config.hpp"
+#include "mesh/mesh_numbers.hpp"
 
 namespace titin {
 
@@ -28,6 +29,7 @@ struct NamedMesh {
   std::unique_ptr<mfem::ParMesh> mesh;
   double thickness = 1;                            ///< of a plane body [m]
   std::map<std::string, int> regions, boundaries;  ///< name -> MFEM attribute
+  MeshNumbers numbers;                             ///< set by read
 
   /// Loads or makes the mesh, refines it, and gives each rank its part. Collective. Errors (a file that is not a mesh,
   /// pyramids in it, fewer cells than ranks) are reported to the section, and the mesh is then empty.

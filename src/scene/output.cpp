@@ -1,7 +1,10 @@
 #include "scene/output.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "base/timers.hpp"
@@ -15,35 +18,86 @@ constexpr double round_off = 1e-9;  // of an interval: a step that ends there re
 
 void OutputConfig::bind(Section& s) {
   s.read("fields", fields, {.doc = "write fields for ParaView, or only history.csv"});
-  const bool by_steps = s.has("every"), by_time = s.has("interval");
+  s.choose(
+      "format", files.format,
+      {{"vtu", FieldFormat::vtu}, {"vtkhdf", FieldFormat::vtkhdf}, {"vtkhdf_transient", FieldFormat::vtkhdf_transient}},
+      {.doc = "files of the fields: a VTU for each rank and time, one VTKHDF for each time, or one for the whole "
+              "run (ParaView 5.12 or later)"});
+  s.choose("precision", files.precision, {{"single", Digits::single}, {"double", Digits::twofold}},
+           {.doc = "of the numbers in them"});
+  s.choose(
+      "jumps", files.jumps, {{"nodes", Jumps::nodes}, {"means", Jumps::means}, {"kept", Jumps::kept}},
+      {.doc = "how fields that jump between cells are written: at nodes as means over the cells of a region around "
+              "them; as means of cells; or as they are, with points that no two cells share (large files)"});
+  const bool by_steps = s.has("every"), by_time = s.has("interval"), by_list = s.has("times");
   s.read("every", every, {.range = {.min = 1}, .doc = "steps between two writes of the fields"});
   s.read("interval", interval,
          {.unit = "s", .range = positive, .doc = "time between two writes of the fields, instead of every"});
   s.read("history_every", history_every,
          {.range = {.min = 1}, .doc = "steps between two rows of history.csv; explicit runs have many steps"});
+  s.read("times", at,
+         {.unit = "s", .range = positive, .doc = "times at which the fields are written, instead of every"});
   if (by_steps && by_time) s.error("interval", "excludes output.every", "keep one of them");
+  if (by_list && (by_steps || by_time))
+    s.error("times", fmt::format("excludes output.{}", by_steps ? "every" : "interval"), "keep one of them");
+  if (std::adjacent_find(at.begin(), at.end(), std::greater_equal<>()) != at.end())
+    s.error("times", "does not increase", "sort the times, and give each once");
 }
 
 std::vector<double> OutputConfig::times(double end) const {
-  std::vector<double> times;
+  std::vector<double> times = at;
   for (long n = 1; interval > 0 && static_cast<double>(n) * interval < end; ++n)
     times.push_back(static_cast<double>(n) * interval);
   return times;
 }
 
-Output::Output(const OutputConfig& config, const RunFolder& folder, Model& model) : config_(config), model_(model) {
+Output::Output(const OutputConfig& config, const RunFolder& folder, Model& model)
+    : config_(config), folder_(folder), model_(model), quantities_(model.quantities()) {}
+
+void Output::begin() {
   Timers::Scope timer("output");
-  quantities_ = model.quantities();
+  history_ = std::make_unique<TimeSeries>(folder_.file("history.csv"), columns());
+  write_row(0, 0);
+  open_fields({});
+  write_fields(0, 0);
+}
+
+void Output::walk(StateWalk& walk) {
+  long rows = history_ ? history_->rows() : 0;
+  walk.number("output_rows", rows);
+  walk.number("output_last_row", last_row_);
+  walk.number("output_last_fields", last_fields_);
+  walk.number("output_intervals_done", intervals_done_);
+  walk.number("output_times_done", times_done_);
+  std::vector<double> cycles, times;
+  for (const ParaView::Entry& entry : paraview_ ? paraview_->entries() : std::vector<ParaView::Entry>{}) {
+    cycles.push_back(entry.cycle);
+    times.push_back(entry.time);
+  }
+  FieldFormat format = config_.files.format;
+  walk.number("output_format", format);
+  walk.common("output_field_cycles", cycles);
+  walk.common("output_field_times", times);
+  if (!walk.reading()) return;
+  quantities_ = model_.quantities();
+  history_ = std::make_unique<TimeSeries>(folder_.file("history.csv"), columns(), rows);
+  std::vector<ParaView::Entry> entries;
+  const bool same = format == config_.files.format;  // else a new index, beside the old one
+  for (std::size_t k = 0; k < cycles.size() && same; ++k) entries.push_back({static_cast<int>(cycles[k]), times.at(k)});
+  open_fields(std::move(entries));
+}
+
+std::vector<Column> Output::columns() const {
   std::vector<Column> columns = {{"time", "s"}};
   for (const Quantity& q : quantities_) columns.push_back({q.name, q.unit});
-  history_ = std::make_unique<TimeSeries>(folder.file("history.csv"), columns);
-  write_row(0, 0);
-  if (!config.fields) return;
-  ParaView::Fields fields;
-  model.update_fields();
-  for (const Field& field : model.fields()) fields.emplace_back(field.name, field.values);
-  paraview_ = std::make_unique<ParaView>(folder.path(), "fields", model.mesh(), fields);
-  write_fields(0, 0);
+  return columns;
+}
+
+void Output::open_fields(std::vector<ParaView::Entry> earlier) {
+  if (!config_.fields) return;
+  model_.update_fields();
+  paraview_ =
+      std::make_unique<ParaView>(folder_.path(), model_.mesh(), model_.fields(), config_.files, std::move(earlier));
 }
 
 bool Output::write(const Clock& clock) {
@@ -74,6 +128,12 @@ const Quantity& Output::shown() const {
 }
 
 bool Output::fields_are_due(const Clock& clock) {
+  if (!config_.at.empty()) {
+    const double now = clock.time() * (1 + round_off);
+    const std::size_t before = times_done_;
+    while (times_done_ < config_.at.size() && config_.at[times_done_] <= now) ++times_done_;
+    return times_done_ > before;
+  }
   if (config_.interval == 0) return clock.steps() % config_.every == 0;
   const long intervals = static_cast<long>(std::floor(clock.time() / config_.interval + round_off));
   const bool due = intervals > intervals_done_;

@@ -21,8 +21,9 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-Progress::Progress(const Quantity& shown, bool is_explicit)
+Progress::Progress(const Quantity& shown, bool is_explicit, double done)
     : start_(wall_seconds()),
+      done_at_start_(done),
       width_(std::max(least_width, static_cast<int>(heading(shown).size()))),
       is_explicit_(is_explicit) {
   const std::string iterations =
@@ -37,7 +38,7 @@ void Progress::line(const Clock& clock, const Step& step, const Quantity& shown)
   percent_ = percent;
   const std::string iterations =
       is_explicit_ ? "" : fmt::format("  {:>6}  {:>6}  {:>8.1e}", step.newton, step.krylov, step.residual);
-  const double done = clock.fraction(), left = (wall_seconds() - start_) * (1 - done) / done;
+  const double done = clock.fraction(), left = (wall_seconds() - start_) * (1 - done) / (done - done_at_start_);
   logging::info("{:>6}  {:>10.6g}  {:>10.4g}{}  {:>{}.6g}  {:>3.0f} %  {:>7}", clock.steps(), clock.time(), step.dt,
                 iterations, shown.value, width_, 100 * done, duration(left));
 }

@@ -10,11 +10,12 @@ namespace titin {
 
 class Progress {
  public:
-  Progress(const Quantity& shown, bool is_explicit);  ///< prints the header
+  /// Prints the header. `done`: part of the simulated time that an earlier run did.
+  Progress(const Quantity& shown, bool is_explicit, double done = 0);
   void line(const Clock& clock, const Step& step, const Quantity& shown);
 
  private:
-  double start_;
+  double start_, done_at_start_;
   int width_;  // of the shown quantity's column
   bool is_explicit_;
   int percent_ = -1;  // of the last line

@@ -80,6 +80,13 @@ void Reference::add(double time, const std::vector<Quantity>& quantities) {
   for (Column& column : columns_) column.values.push_back(quantities.at(column.quantity).value);
 }
 
+void Reference::walk(StateWalk& walk) {
+  if (columns_.empty()) return;
+  walk.common("reference_times", run_times_);
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    walk.common(fmt::format("reference_values_{}", c), columns_[c].values);
+}
+
 double Reference::largest(const std::string& unit, std::size_t rows) const {
   double value = 0;
   for (const Column& column : columns_)

@@ -27,6 +27,8 @@ class Reference {
 
   /// The start, and then every accepted state, with the quantities of `match` in their order.
   void add(double time, const std::vector<Quantity>& quantities);
+  /// What was added so far.
+  void walk(StateWalk& walk);
   /// Norms by name; empty without a reference.
   std::map<std::string, double> errors() const;
 

@@ -8,11 +8,14 @@
 #include "base/timers.hpp"
 #include "base/version.hpp"
 #include "base/words.hpp"
+#include "io/checkpoint.hpp"
 #include "io/output_error.hpp"
 #include "io/run_folder.hpp"
 #include "scene/output.hpp"
 #include "scene/progress.hpp"
+#include "scene/restart.hpp"
 #include "scene/run_report.hpp"
+#include "scene/saving.hpp"
 #include "scene/scene.hpp"
 #include "scene/stop_signals.hpp"
 
@@ -20,39 +23,67 @@ namespace titin {
 namespace {
 
 std::string folder_of(const RunOptions& options) {
+  if (!options.restart.empty()) return folder_of_restart(options.restart);
   if (!options.folder.empty()) return options.folder;
-  return "results/" + std::filesystem::path(options.scene_file).stem().string();
+  const std::string name = std::filesystem::path(options.scene_file).stem().string();
+  const bool is_folder = name.empty() || name == "." || name == "..";  // of a scene called "...toml"
+  return "results/" + (is_folder ? "scene" : name);
 }
 
-/// All input errors at once: those of the scene and that of the folder.
-Scene read(const RunOptions& options) {
+struct Start {
+  Scene scene;
+  FoundCheckpoint checkpoint;  // of a restart
+};
+
+Scene read_scene(const RunOptions& options, const FoundCheckpoint& from) {
+  if (!options.scene_file.empty()) return Scene::read(options.scene_file, options.overrides);
+  return Scene::of_text(from.head.scene, from.path, options.overrides);
+}
+
+/// All input errors at once: those of the scene, of the folder and of the checkpoint.
+Start read(const RunOptions& options) {
   Timers::Scope timer("set-up");
-  const std::string folder_problem = RunFolder::problem(folder_of(options), options.overwrite);
-  try {
-    Scene scene = Scene::read(options.scene_file, options.overrides);
-    if (folder_problem.empty()) return scene;
-  } catch (const InputError& error) {
-    auto messages = error.messages();
-    if (!folder_problem.empty()) messages.push_back(folder_problem);
-    throw InputError(messages);
-  }
-  throw InputError({folder_problem});
+  Start start;
+  std::vector<std::string> messages, others;
+  const bool again = !options.restart.empty();
+  if (again) start.checkpoint = find_checkpoint(options.restart);
+  others.push_back(again ? start.checkpoint.problem : RunFolder::problem(folder_of(options), options.overwrite));
+  const bool readable = !again || start.checkpoint.problem.empty() || !options.scene_file.empty();
+  if (readable) try {
+      start.scene = read_scene(options, start.checkpoint);
+      if (again && start.checkpoint.problem.empty())
+        others = restart_problems(start.checkpoint.path, start.checkpoint.head, start.scene);
+    } catch (const InputError& error) {
+      messages = error.messages();
+    }
+  std::erase(others, "");
+  messages.insert(messages.end(), others.begin(), others.end());
+  if (!messages.empty()) throw InputError(messages);
+  return start;
 }
 
 /// One run: the loop, and run.json around it.
 class Run {
  public:
-  Run(Scene& scene, const RunOptions& options)
-      : scene_(scene), folder_(folder_of(options), options.overwrite), clock_(scene.clock, scene.model->largest_dt()) {
-    summary_.scene = options.scene_file;
-    summary_.title = scene.title;
-    summary_.model = scene.model->name();
+  Run(Start& start, const RunOptions& options)
+      : scene_(start.scene),
+        checkpoint_(start.checkpoint),
+        folder_(options.restart.empty() ? RunFolder(folder_of(options), options.overwrite)
+                                        : RunFolder::of_restart(folder_of(options))),
+        clock_(scene_.clock, scene_.model->largest_dt()),
+        output_(scene_.output, folder_, *scene_.model),
+        saving_(scene_.saving),
+        checkpoints_(folder_.path(), scene_.saving.keep) {
+    summary_.scene = options.scene_file.empty() ? checkpoint_.head.scene_file : options.scene_file;
+    summary_.title = scene_.title;
+    summary_.model = scene_.model->name();
     summary_.libraries = library_versions();
     summary_.ranks = ranks();
-    summary_.cells = static_cast<long>(scene.model->mesh().GetGlobalNE());
-    summary_.unknowns = scene.model->unknowns();
+    summary_.cells = static_cast<long>(scene_.model->mesh().GetGlobalNE());
+    summary_.unknowns = scene_.model->unknowns();
+    if (!checkpoint_.path.empty()) go_on();
     folder_.write("resolved.toml", fmt::format("# {} as Titin {} understood it: in SI units, with defaults.\n{}",
-                                               options.scene_file, version(), scene.resolved));
+                                               summary_.scene, version(), scene_.resolved));
     folder_.write("run.json", summary_.json());
     if (any_of(!logging::open_file(folder_.file("run.log")))) throw OutputError(folder_.file("run.log"));
   }
@@ -62,6 +93,8 @@ class Run {
       logging::info("Titin {} ({}), {}", version(), commit(), count(ranks(), "rank"));
       logging::info("{}: {}, {}, output in {}", scene_.title.empty() ? summary_.scene : scene_.title,
                     count(summary_.cells, "cell"), count(summary_.unknowns, "unknown"), folder_.path());
+      if (!checkpoint_.path.empty())
+        logging::info("going on from {}: step {}, {:.6g} s", checkpoint_.path, clock_.steps(), clock_.time());
       const Outcome outcome = loop();
       conclude(outcome);
       return outcome;
@@ -82,38 +115,101 @@ class Run {
     clock_.land_on(scene_.model->kinks());
     clock_.land_on(scene_.output.times(scene_.clock.end));
     const StopSignals signals;
-    Model& model = *scene_.model;
-    Output out(scene_.output, folder_, model);
-    scene_.reference.add(0, out.quantities());
-    Progress progress(out.shown(), scene_.clock.by_stability);
+    if (checkpoint_.path.empty()) {
+      output_.begin();
+      scene_.reference.add(0, output_.quantities());
+    }
+    Progress progress(output_.shown(), scene_.clock.by_stability, clock_.fraction());
     Outcome outcome = Outcome::finished;
     while (!clock_.done()) {
-      if (const std::string signal = signals.received(); !signal.empty()) {
-        outcome = stop_by(signal);
+      if (stop_is_asked(signals)) {
+        outcome = Outcome::stopped;
         break;
       }
-      const Step step = advance(model);
-      if (!step.ok()) {
-        model.rewind();
-        if (cut(step)) continue;
+      const Tried tried = try_step(progress);
+      saving_.stepped();
+      if (tried == Tried::hopeless) {
         outcome = Outcome::not_converged;
         break;
       }
-      if (clock_.reject(step)) {
-        model.rewind();
-        summary_.newton.rejected += step.newton;
-        continue;
+      if (tried == Tried::again) continue;
+      if (saving_.due_by_steps(clock_)) {
+        save();
+        scene_.model->forget();  // a run that goes on from here has not what was left either
+      } else if (saving_.due_by_time()) {
+        save();
       }
-      if (!scene_.clock.by_stability) add_step(summary_, step);
-      accept(model);
-      clock_.accept(step, model.largest_dt());
-      if (!out.write(clock_)) continue;
-      scene_.reference.add(clock_.time(), out.quantities());
-      progress.line(clock_, step, out.shown());
     }
-    out.finish(clock_);
+    if (outcome != Outcome::finished && saving_.last_step() != clock_.steps()) save();
+    output_.finish(clock_);
     summary_.stepping_seconds = wall_seconds() - start;
     return outcome;
+  }
+
+  enum class Tried { accepted, again, hopeless };
+  Tried try_step(Progress& progress) {
+    Model& model = *scene_.model;
+    const Step step = advance(model);
+    if (!step.ok()) {
+      model.rewind();
+      return cut(step) ? Tried::again : Tried::hopeless;
+    }
+    if (clock_.reject(step)) {
+      model.rewind();
+      summary_.newton.rejected += step.newton;
+      return Tried::again;
+    }
+    if (!scene_.clock.by_stability) add_step(summary_, step);
+    accept(model);
+    clock_.accept(step, model.largest_dt());
+    if (!output_.write(clock_)) return Tried::accepted;
+    scene_.reference.add(clock_.time(), output_.quantities());
+    progress.line(clock_, step, output_.shown());
+    return Tried::accepted;
+  }
+
+  /// What a run is, for a checkpoint and back.
+  void walk(StateWalk& walk) {
+    scene_.model->walk_state(walk);
+    clock_.walk(walk);
+    output_.walk(walk);
+    scene_.reference.walk(walk);
+    summary_.walk(walk);
+  }
+
+  /// From the checkpoint.
+  void go_on() {
+    Timers::Scope timer("restart");
+    try {
+      read_checkpoint(checkpoint_.path, [&](StateWalk& reader) { walk(reader); });
+    } catch (const OutputError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      throw InputError({fmt::format("restart {}", error.what())});
+    }
+    checkpoints_.forget_after(clock_.steps());
+    summary_.restarted_at = clock_.steps();
+    saving_.saved(clock_.steps(), 0);
+  }
+
+  void save() {
+    Timers::Scope timer("checkpoint");
+    const double start = wall_seconds();
+    output_.sync();
+    CheckpointHead head;
+    head.version = version();
+    head.commit = commit();
+    head.model = scene_.model->name();
+    head.ranks = ranks();
+    head.step = clock_.steps();
+    head.time = clock_.time();
+    head.mesh = scene_.mesh_identity;
+    head.settings = scene_.settings;
+    head.scene_file = summary_.scene;
+    head.scene = scene_.resolved;
+    checkpoints_.write(head, [&](StateWalk& writer) { walk(writer); });
+    saving_.saved(clock_.steps(), wall_seconds() - start);
+    logging::detail("checkpoint of step {} in {}", clock_.steps(), duration(wall_seconds() - start));
   }
 
   Step advance(Model& model) {
@@ -143,9 +239,12 @@ class Run {
     return false;
   }
 
-  Outcome stop_by(const std::string& signal) {
-    summary_.reason = fmt::format("stopped by {} at {:.6g} s", signal, clock_.time());
-    return Outcome::stopped;
+  bool stop_is_asked(const StopSignals& signals) {
+    if (const std::string signal = signals.received(); !signal.empty())
+      summary_.reason = fmt::format("stopped by {} at {:.6g} s", signal, clock_.time());
+    else if (saving_.out_of_time())
+      summary_.reason = fmt::format("stopped at {:.6g} s: the next step could pass output.wall_limit", clock_.time());
+    return !summary_.reason.empty();
   }
 
   void conclude(Outcome outcome) {
@@ -173,20 +272,24 @@ class Run {
     if (outcome == Outcome::finished)
       logging::info("finished: {}", done);
     else
-      logging::error(fmt::format("{}\n{}", summary_.reason, done));
+      logging::error(fmt::format("{}\n{}; titin run --restart {} goes on", summary_.reason, done, folder_.path()));
   }
 
   Scene& scene_;
+  const FoundCheckpoint& checkpoint_;
   RunFolder folder_;
   Clock clock_;
+  Output output_;
+  Saving saving_;
+  Checkpoints checkpoints_;
   RunSummary summary_;
 };
 
 }  // namespace
 
 Outcome run(const RunOptions& options) {
-  Scene scene = read(options);
-  return Run(scene, options).go();
+  Start start = read(options);
+  return Run(start, options).go();
 }
 
 void check_scene(const RunOptions& options) {

@@ -10,10 +10,11 @@ namespace titin {
 enum class Outcome { finished = 0, not_converged = 2, stopped = 3 };
 
 struct RunOptions {
-  std::string scene_file;
+  std::string scene_file;  ///< of a restart may be "": the scene of the checkpoint
   std::vector<std::string> overrides;
   std::string folder;  ///< "": results/<name of the scene file>
   bool overwrite = false;
+  std::string restart;  ///< folder of a run, or one of its checkpoints, to go on from; "": begin
 };
 
 /// Collective. Throws InputError, and then has touched nothing.

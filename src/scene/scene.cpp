@@ -20,6 +20,7 @@ struct SceneConfig {
   MeshConfig mesh;
   ClockConfig clock;
   OutputConfig output;
+  SavingConfig saving;
   Reference reference;
   MuscleConfig muscle;
   PetscOptionsConfig petsc;
@@ -41,6 +42,7 @@ struct SceneConfig {
     clock.bind(time);
     Section out = root.section("output", "what is written, and when");
     output.bind(out);
+    saving.bind(out);
     if (root.describing() || model == ModelName::muscle) {
       muscle.bind(root, named);
       Section options = root.section("petsc", "options of PETSc and hypre, for those who know them");
@@ -54,15 +56,19 @@ struct SceneConfig {
   }
 };
 
-}  // namespace
-
-Scene Scene::read(const std::string& file, const std::vector<std::string>& overrides) {
-  Config text = Config::read_file(file, overrides);
+Scene scene_of(Config text) {
   SceneConfig config;
   NamedMesh mesh = config.bind(text.root());
   text.finish();
-  Scene scene{config.title,   config.clock, config.output, nullptr, nullptr, std::move(config.reference),
-              text.resolved()};
+  Scene scene;
+  scene.title = config.title;
+  scene.clock = config.clock;
+  scene.output = config.output;
+  scene.reference = std::move(config.reference);
+  scene.saving = config.saving;
+  scene.settings = text.settings();
+  scene.mesh_identity = mesh.numbers.identity;
+  scene.resolved = text.resolved();
   scene.petsc = std::make_unique<PetscOptionsInForce>(std::move(config.petsc));
   if (config.model == ModelName::muscle)
     scene.model = std::make_unique<Muscle>(std::move(mesh), std::move(config.muscle));
@@ -71,6 +77,16 @@ Scene Scene::read(const std::string& file, const std::vector<std::string>& overr
   scene.reference.match(scene.model->quantities(), text.root().section("reference"));
   text.finish();
   return scene;
+}
+
+}  // namespace
+
+Scene Scene::read(const std::string& file, const std::vector<std::string>& overrides) {
+  return scene_of(Config::read_file(file, overrides));
+}
+
+Scene Scene::of_text(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+  return scene_of(Config(text, file, overrides));
 }
 
 std::vector<KeyRecord> scene_keys() {

@@ -25,6 +25,8 @@ class BlockSolver {
 
   /// Takes the present cells for the preconditioner. Collective.
   void update();
+  /// Forgets what it has of earlier cells; update() comes before the next solve.
+  void forget() { schur_.reset(), coupling_.reset(), multigrid_.reset(); }
   /// x ~ K^-1 b to a residual of `tolerance` times |b|. Returns "" or why not. Collective.
   std::string solve(Vec b, Vec x, double tolerance);
   int iterations() const { return iterations_; }  ///< of the last solve

@@ -124,6 +124,25 @@ void Clock::control(const Step& step, double tried) {
   failed_ = false;
 }
 
+void Clock::walk(StateWalk& walk) {
+  double nominal = config_.step;
+  walk.number("clock_nominal_step", nominal);
+  walk.number("clock_time", time_);
+  walk.number("clock_dt", dt_);
+  walk.number("clock_largest_dt", largest_dt_);
+  walk.number("clock_origin", origin_);
+  walk.number("clock_stride", stride_);
+  walk.number("clock_strides", strides_);
+  walk.number("clock_steps", steps_);
+  walk.number("clock_cuts", cuts_);
+  walk.number("clock_cuts_in_a_row", cuts_in_a_row_);
+  walk.number("clock_easy_steps", easy_steps_);
+  walk.number("clock_rejected", rejected_);
+  walk.number("clock_last_excess", last_excess_);
+  walk.number("clock_failed", failed_);
+  if (nominal != config_.step && !config_.by_stability) dt_ = config_.step;
+}
+
 bool Clock::cut(const Step&) {
   const double half = dt() / 2;
   if (cuts_in_a_row_ >= config_.max_cuts || half < smallest_part * std::min(config_.step, largest_dt_)) return false;

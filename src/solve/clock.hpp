@@ -50,6 +50,8 @@ class Clock {
   /// Is the error of a step that succeeded too large? If so the next dt() is shorter.
   bool reject(const Step& step);
   void accept(const Step& step, double largest_dt);
+  /// Where it stands. A nominal step that the scene has changed since counts from there on.
+  void walk(StateWalk& walk);
   /// Halves the step. Returns false when it may not be cut further: the run ends there.
   bool cut(const Step& step);
 

@@ -205,6 +205,19 @@ void Integrator::accept(const mfem::Vector& u) {
   dt_old_ = dt_;
 }
 
+void Integrator::walk(StateWalk& walk, const StateRows& dofs) {
+  walk.number("integrator_dt_old", dt_old_);
+  walk.number("integrator_a_delay", a_delay_);
+  walk.number("integrator_a_old_delay", a_old_delay_);
+  walk.vector("u", dofs, u_);
+  walk.vector("v", dofs, v_);
+  walk.vector("a", dofs, a_);
+  walk.vector("du_old", dofs, du_old_);
+  walk.vector("v_old", dofs, v_old_);
+  walk.vector("a_old", dofs, a_old_);
+  walk.vector("mean_velocity", dofs, mean_velocity_);
+}
+
 const mfem::Vector& Integrator::seen_velocity() const {
   return config_.velocity == VelocityForm::rothe && dt_old_ > 0 ? mean_velocity_ : v_;
 }

@@ -16,6 +16,7 @@
 #include <mfem.hpp>
 
 #include "base/config.hpp"
+#include "solve/state_walk.hpp"
 
 namespace titin {
 
@@ -83,6 +84,9 @@ class Integrator {
   mfem::Vector error(const mfem::Vector& u) const;
   /// The step is accepted with displacement u.
   void accept(const mfem::Vector& u);
+
+  /// The accepted state.
+  void walk(StateWalk& walk, const StateRows& dofs);
 
   const IntegratorConfig& config() const { return config_; }
   double dt() const { return dt_; }          ///< of the step begun last

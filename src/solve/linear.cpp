@@ -165,6 +165,19 @@ bool LinearSolver::forget_reused() {
   return reused_;
 }
 
+void LinearSolver::forget() {
+  prepared_ = false;
+  if (block_) return block_->forget();
+  PC pc;
+  Mat K;
+  check(KSPGetPC(solver_, &pc));
+  check(KSPGetOperators(solver_, &K, nullptr));
+  check(PetscObjectReference(reinterpret_cast<PetscObject>(K)));
+  check(PCReset(pc));  // also the analysis: pivots of an unsymmetric matrix depend on its values
+  check(KSPSetOperators(solver_, K, K));
+  check(MatDestroy(&K));
+}
+
 std::string LinearSolver::solve(mfem::Vector& b, mfem::Vector& x) {
   Timers::Scope timer("linear solve");
   check(KSPSolve(ksp_, View(b).vec, View(x).vec));

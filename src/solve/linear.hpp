@@ -41,6 +41,8 @@ class LinearSolver {
   bool matrix_changed();
   /// Forgets a preconditioner that was of an earlier matrix; false when it is of the present one.
   bool forget_reused();
+  /// Forgets every earlier matrix, and what was learnt of it.
+  void forget();
   /// x = K^-1 b. Returns "" or why it failed.
   std::string solve(mfem::Vector& b, mfem::Vector& x);
   /// What the last solve of the KSP means in words; "" when it worked.

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "solve/state_walk.hpp"
+
 namespace titin {
 
 /// The outcome of one attempted time step. Failure is a value.
@@ -65,6 +67,12 @@ class Model {
   virtual const std::vector<Field>& fields() const = 0;
   virtual mfem::ParMesh& mesh() = 0;
   virtual long unknowns() const = 0;
+
+  /// Walks the accepted state: all that the steps to come, the quantities and the fields depend on. Reading it into a
+  /// model of the same scene makes that model go on where the other was. Collective.
+  virtual void walk_state(StateWalk& walk) = 0;
+  /// Forgets what earlier steps left to save time (factorisations, say): what comes next depends on the state alone.
+  virtual void forget() {}
 };
 
 }  // namespace titin
