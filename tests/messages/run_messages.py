@@ -11,7 +11,11 @@ Each case runs in a folder of its own that holds block.toml, as
     name = "..."
     set = ["key=value"]            # overrides
     edit = [["old", "new"]]        # replacements in block.toml
-    files = { "name" = "text" }    # more files; "<tests/...>" is the text of a file of this repository
+    files = { "name" = "text" }    # more files; "<tests/...>" is the text of a file of this repository, "<N x TEXT>" N times TEXT
+    sparse = { "name" = 1000000 }  # files of so many bytes, all zero, that take no space
+    before = ["run", "block.toml"] # a run that comes first, and must succeed
+    changes = true                 # files of before may change
+    cut = { "name" = 100 }         # files that are then cut off after so many bytes
     arguments = ["keys", "tme"]    # instead of run block.toml
     ranks = 2                      # under mpirun
     signal = "TERM"                # sent when the history has grown
@@ -21,6 +25,8 @@ Each case runs in a folder of its own that holds block.toml, as
     output = "..."                 # a part of stdout
     writes = ["results/..."]       # files that must be there after; none but these may be new ("results/...*": any)
     report = { status = "..." }    # in results/block/run.json
+
+No case may take more memory than MOST_MEMORY, whatever a file says of itself.
 """
 import argparse
 import fnmatch
@@ -40,6 +46,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent.parent
 MPI_ENVIRONMENT = dict(re.findall(r"\b(OMPI_\w+)=(\S+)", (TOP / "scripts" / "mpi_environment").read_text()))
 LONGEST = 60  # [s] for one case; most take a fraction of a second
+MOST_MEMORY = 400e6  # [bytes] of a rank; a small run takes a quarter of it
 
 
 def prepare(case, folder):
@@ -54,11 +61,18 @@ def prepare(case, folder):
         path.parent.mkdir(parents=True, exist_ok=True)
         if text.startswith("<tests/"):
             text = (TOP / text.strip("<>")).read_text()
+        elif repeated := re.fullmatch(r"<(\d+) x (.*)>", text, re.DOTALL):
+            text = int(repeated[1]) * repeated[2]
         path.write_bytes(text.encode("latin-1"))  # so that cases can hold bytes that are not UTF-8
+    for name, size in case.get("sparse", {}).items():
+        with open(folder / name, "wb") as file:
+            file.truncate(size)
 
 
 def contents(folder):
-    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    """Of all files; of very large ones the size."""
+    return {p.relative_to(folder).as_posix(): p.read_bytes() if p.stat().st_size < 1e8 else b"%d" % p.stat().st_size
+            for p in folder.rglob("*") if p.is_file()}  # fmt: skip
 
 
 def wait_for_steps(folder, process):
@@ -68,25 +82,36 @@ def wait_for_steps(folder, process):
         time.sleep(0.01)
 
 
+def finish(process):
+    """Waits for the process, at most LONGEST: its exit code and its largest memory [bytes]."""
+    end = time.monotonic() + LONGEST
+    while True:
+        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if pid:
+            break
+        if time.monotonic() > end:
+            process.kill()
+        time.sleep(0.005)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return process.returncode, usage.ru_maxrss * 1024
+
+
 def run(case, titin, folder):
     command = [str(titin), *case.get("arguments", ["run", "block.toml"]), *case.get("set", [])]
     if case.get("ranks", 1) > 1:
         command = ["mpirun", "--quiet", "-np", str(case["ranks"]), *command]
+    out, err = tempfile.TemporaryFile("w+", errors="replace"), tempfile.TemporaryFile("w+", errors="replace")
     process = subprocess.Popen(command, cwd=folder, env=os.environ | MPI_ENVIRONMENT, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               restore_signals="largest_file" not in case)  # fmt: skip
+                               stdout=out, stderr=err, restore_signals="largest_file" not in case)  # fmt: skip
     if "largest_file" in case:  # the signal that goes with it stays ignored, as it is in Python: the write fails
         wait_for_steps(folder, process)
         resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (case["largest_file"], resource.RLIM_INFINITY))
     if "signal" in case:
         wait_for_steps(folder, process)
         process.send_signal(signal.Signals["SIG" + case["signal"]])
-    try:
-        out, err = process.communicate(timeout=LONGEST)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        out, err = process.communicate()
-    return process.returncode, out, err.rstrip("\n").replace(str(folder), "<here>")
+    code, memory = finish(process)
+    out.seek(0), err.seek(0)
+    return code, out.read(), err.read().rstrip("\n").replace(str(folder), "<here>"), memory
 
 
 def same(text, wanted):
@@ -97,7 +122,7 @@ def same(text, wanted):
 def wrong_files(case, before, after):
     allowed = case.get("writes", [])
     for name, bytes_before in before.items():
-        if after.get(name) != bytes_before:
+        if after.get(name) != bytes_before and not case.get("changes"):
             yield f"touched {name}"
     for name in after.keys() - before.keys():
         if not any(fnmatch.fnmatchcase(name, pattern) for pattern in allowed):
@@ -110,8 +135,16 @@ def wrong_files(case, before, after):
 def complaints(case, titin, folder):
     """What is wrong with titin's answer."""
     prepare(case, folder)
+    if "before" in case:
+        first = subprocess.run([titin, *case["before"]], cwd=folder, env=os.environ | MPI_ENVIRONMENT, capture_output=True)
+        if first.returncode != 0:
+            yield f"the run before ended with {first.returncode}: {first.stderr.decode()}"
+    for name, size in case.get("cut", {}).items():
+        os.truncate(folder / name, size)
     before = contents(folder)
-    code, out, err = run(case, titin, folder)
+    code, out, err, memory = run(case, titin, folder)
+    if memory > MOST_MEMORY:
+        yield f"took {memory / 1e6:.0f} MB"
     if "--print" in sys.argv:
         print(f"\n{case['name']}\n{err}")
     after = contents(folder)
