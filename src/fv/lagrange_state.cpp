@@ -39,6 +39,7 @@ void FlowScheme<D>::walk(StateWalk& walk, const StateRows& cells, const StateRow
     mood_.set_order(static_cast<int>(c), static_cast<CellOrder>(static_cast<int>(order)));
     for (double& x : waves_[c].C) take(x);
   });
+  if (patches_) patches_->walk(walk, cells);
   walk.records("motion", nodes, 3 * D, [&](std::size_t p, auto take) {
     for (double& x : now_.x[p]) take(x);
     for (double& x : now_.v[p]) take(x);

@@ -13,6 +13,7 @@
 #include "fv/closure.hpp"
 #include "fv/node_exchange.hpp"
 #include "fv/state.hpp"
+#include "solve/state_walk.hpp"
 
 namespace titin {
 
@@ -24,6 +25,10 @@ class PatchPressure {
 
   /// Turns the stresses of cells into those with averaged pressures. Collective.
   void apply(FlowState<D>& state);
+  void walk(StateWalk& walk, const StateRows& cells) {
+    walk.records("patch_shift", cells, 2,
+                 [&](std::size_t c, auto take) { take(shift_[c].first), take(shift_[c].second); });
+  }
   /// What was added to the mean stress [Pa], and to the energy stored per volume at rest [J/m^3].
   double stress(int cell) const { return shift_[cell].first; }
   double energy(int cell) const { return shift_[cell].second; }

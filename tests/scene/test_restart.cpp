@@ -194,6 +194,13 @@ TEST_F(Restarts, SolidGoesOnByTheBit) {
   compare_histories(14);
 }
 
+TEST_F(Restarts, AveragedPressuresGoOnByTheBit) {
+  EXPECT_EQ(begin(solid, {"fv.patch_pressure=true", "time.end=0.1 ms", "output.checkpoint_every=7",
+                          "output.checkpoint_keep=999"}),
+            Outcome::finished);
+  compare_histories(14);
+}
+
 // The only two kept are the last ones; a run may be made longer; what lies after its checkpoint is not kept.
 TEST_F(Restarts, ARunCanBeMadeLonger) {
   EXPECT_EQ(begin(solid, {"output.checkpoint_every=5", "time.step=2 us", "time.end=60 us"}), Outcome::finished);
