@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "mesh/gmsh.hpp"
+#include "mesh/plane_triangles.hpp"
 
 namespace titin {
 
@@ -51,6 +52,7 @@ mfem::Mesh make_box(const MeshConfig& config, NamedMesh& named) {
   named.regions = {{"body", 1}};
   if (edge.size() == 2) {
     named.boundaries = {{"y-", 1}, {"x+", 2}, {"y+", 3}, {"x-", 4}};
+    if (config.cuts != BoxCuts::same) return make_plane_triangles(n[0], n[1], edge[0], edge[1], config.cuts);
     const auto type = tensor ? Element::QUADRILATERAL : Element::TRIANGLE;
     return mfem::Mesh::MakeCartesian2D(n[0], n[1], type, true, edge[0], edge[1]);
   }
@@ -110,6 +112,9 @@ bool is_a_box(const MeshConfig& config, Section& section) {
                   "give one for each edge");
   else if (config.kind == BoxCells::wedges && config.box.size() == 2)
     section.error("kind", "a plane body has no wedges", "take tensor or simplices");
+  else if (config.cuts != BoxCuts::same && (config.kind != BoxCells::simplices || config.box.size() != 2))
+    section.error("cuts", "only triangles of a plane box can be cut in other ways",
+                  "take kind = \"simplices\", or drop it");
   else
     return true;
   return false;
@@ -130,6 +135,7 @@ bool names_one_mesh(const MeshConfig& config, Section& section) {
 double cells_of_box(const MeshConfig& config) {
   const int parts = config.kind == BoxCells::tensor                                ? 1
                     : config.kind == BoxCells::simplices && config.box.size() == 3 ? 6
+                    : config.cuts == BoxCuts::crossed                              ? 4
                                                                                    : 2;
   return std::accumulate(config.cells.begin(), config.cells.end(), double(parts), std::multiplies<>());
 }
@@ -176,6 +182,10 @@ void MeshConfig::bind(Section& s) {
            {{"tensor", BoxCells::tensor}, {"simplices", BoxCells::simplices}, {"wedges", BoxCells::wedges}},
            {.doc = "cells of the box: hexahedra or quadrilaterals; each cut into 6 tetrahedra or 2 triangles; or into "
                    "2 wedges"});
+  s.choose(
+      "cuts", cuts, {{"same", BoxCuts::same}, {"alternating", BoxCuts::alternating}, {"crossed", BoxCuts::crossed}},
+      {.doc = "of a plane box into triangles: all boxes along the same diagonal, along one and the other in turn, or "
+              "each along both into four"});
   s.read("file", file, {.doc = "Gmsh 2.2 mesh; its physical names name regions and boundaries"});
   s.read("unit", unit, {.unit = "m", .range = positive, .doc = "what a length of 1 in the file is"});
   s.read("thickness", thickness,

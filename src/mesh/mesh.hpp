@@ -13,15 +13,17 @@
 namespace titin {
 
 enum class BoxCells { tensor, simplices, wedges };
+enum class BoxCuts { same, alternating, crossed };  // of a plane box's cells into triangles
 
 struct MeshConfig {
   std::vector<double> box;           // edge lengths [m] of [0,a]x[0,b](x[0,c]); none: no box
   std::vector<int> cells;            // of the box; none: one in each direction
   BoxCells kind = BoxCells::tensor;  // of the box's cells
-  std::string file;                  // Gmsh 2.2
-  double unit = 1;                   // length of 1 in the file [m]
-  double thickness = 1;              // of a plane body [m]
-  int refine = 0;                    // uniform refinements after loading
+  BoxCuts cuts = BoxCuts::same;
+  std::string file;      // Gmsh 2.2
+  double unit = 1;       // length of 1 in the file [m]
+  double thickness = 1;  // of a plane body [m]
+  int refine = 0;        // uniform refinements after loading
   void bind(Section& s);
 };
 
