@@ -11,64 +11,7 @@ constexpr double round_off = 1e-15;
 
 Vec3 scaled_velocity(const Vec3& x, double s) { return {s * x[0], s * x[1], s * x[2]}; }
 
-enum class Solution { none, kidder, riemann, noh };
-
-std::shared_ptr<const ExactFlow> read_kidder(Section s, int dimension) {
-  Kidder::Shell shell;
-  s.read("inner_radius", shell.inner_radius, {.unit = "m", .range = positive, .doc = "of the shell at the start"});
-  s.read("outer_radius", shell.outer_radius, {.unit = "m", .range = positive, .doc = "of the shell at the start"});
-  s.read("inner_density", shell.inner_density, {.unit = "kg/m^3", .range = positive, .doc = "at the inner radius"});
-  s.read("outer_density", shell.outer_density, {.unit = "kg/m^3", .range = positive, .doc = "at the outer radius"});
-  s.read("entropy", shell.entropy, {.range = positive, .doc = "p / rho^gamma in SI units, gamma = 1 + 2 / dimension"});
-  if (shell.inner_radius >= shell.outer_radius || shell.inner_density >= shell.outer_density) {
-    s.error("", "the shell must be denser outside than inside",
-            "take inner_radius < outer_radius and inner_density < outer_density");
-    return nullptr;
-  }
-  return std::make_shared<Kidder>(shell, dimension);
-}
-
-void read_side(Section s, Riemann::Side& side) {
-  s.read("density", side.density, {.unit = "kg/m^3", .range = positive, .doc = "of this side"});
-  s.read("pressure", side.pressure, {.unit = "Pa", .range = positive, .doc = "of this side"});
-  s.read("velocity", side.velocity, {.unit = "m/s", .doc = "along x"});
-}
-
-std::shared_ptr<const ExactFlow> read_riemann(Section s) {
-  Riemann::Side left{1, 1, 0}, right{0.125, 0.1, 0};
-  double position = 0.5, gamma = 1.4;
-  s.read("position", position, {.unit = "m", .doc = "x of the plane between the two sides"});
-  s.read("gamma", gamma, {.range = {.min = 1, .open_min = true}, .doc = "of the perfect gas on both sides"});
-  read_side(s.section("left", "the state where x is less"), left);
-  read_side(s.section("right", "the state where x is more"), right);
-  return std::make_shared<Riemann>(left, right, position, gamma);
-}
-
-std::shared_ptr<const ExactFlow> read_noh(Section s, int dimension) {
-  double density = 1, pressure = 1e-6, speed = 1, gamma = 5.0 / 3;
-  s.read("density", density, {.unit = "kg/m^3", .range = positive, .doc = "at the start"});
-  s.read("pressure", pressure, {.unit = "Pa", .range = positive, .doc = "at the start: nearly none"});
-  s.read("speed", speed, {.unit = "m/s", .range = positive, .doc = "towards the origin"});
-  s.read("gamma", gamma, {.range = {.min = 1, .open_min = true}, .doc = "of the perfect gas"});
-  return std::make_shared<Noh>(density, pressure, speed, gamma, dimension);
-}
-
 }  // namespace
-
-std::shared_ptr<const ExactFlow> ExactFlow::read(Section s, int dimension) {
-  Solution solution = Solution::none;
-  s.choose(
-      "solution", solution,
-      {{"none", Solution::none}, {"kidder", Solution::kidder}, {"riemann", Solution::riemann}, {"noh", Solution::noh}},
-      {.doc = "a flow that is known exactly: the start of the run and what its errors are against"});
-  const bool all = s.describing();
-  std::shared_ptr<const ExactFlow> flow;
-  if (all || solution == Solution::kidder)
-    flow = read_kidder(s.section("kidder", "isentropic compression of a shell"), dimension);
-  if (all || solution == Solution::riemann) flow = read_riemann(s.section("riemann", "a shock tube along x"));
-  if (all || solution == Solution::noh) flow = read_noh(s.section("noh", "implosion onto the origin"), dimension);
-  return flow;
-}
 
 Kidder::Kidder(const Shell& shell, int dimension) : shell_(shell), gamma_(1 + 2.0 / dimension) {
   const auto square_of_sound = [&](double density) { return gamma_ * shell.entropy * std::pow(density, gamma_ - 1); };
@@ -95,6 +38,11 @@ double Kidder::pressure_on_boundary(const Vec3& x, double t) const {
   const double h = shrinkage(t), middle = 0.5 * (shell_.inner_radius + shell_.outer_radius);
   const double radius = norm(x) / h < middle ? shell_.inner_radius : shell_.outer_radius;
   return at({radius * h, 0, 0}, t).pressure;
+}
+
+double Kidder::off_surface(const Vec3& x, double t) const {
+  const double h = shrinkage(t), r = norm(x);
+  return std::min(std::abs(r - h * shell_.inner_radius), std::abs(r - h * shell_.outer_radius));
 }
 
 Riemann::Riemann(const Side& left, const Side& right, double position, double gamma)

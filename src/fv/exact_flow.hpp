@@ -5,7 +5,7 @@
 ///   tau. Kidder (1976), Nucl. Fusion 16:3; set-up of Maire (2009), J. Comput. Phys. 228:2391, sec. 5.4.
 /// * riemann: two states beside a plane x = position. Toro (2009), Riemann Solvers, ch. 4.
 /// * noh: uniform implosion onto a point (3-D) or line (2-D). Noh (1987), J. Comput. Phys. 72:78.
-/// All are of perfect gases, about the origin, in SI units.
+/// Others have files of their own. All are of perfect gases, about the origin, in SI units.
 #pragma once
 
 #include <memory>
@@ -26,6 +26,8 @@ class ExactFlow {
   virtual FlowPoint at(const Vec3& x, double t) const = 0;
   /// [Pa] outside of the body at a face around x, which need not lie quite where the exact boundary does.
   virtual double pressure_on_boundary(const Vec3& x, double t) const { return at(x, t).pressure; }
+  /// Distance of a node at x of a loaded boundary from where the exact flow has it [m].
+  virtual double off_surface(const Vec3&, double) const { return 0; }
   /// Reads [exact]; null when the scene names no solution.
   static std::shared_ptr<const ExactFlow> read(Section section, int dimension);
 };
@@ -42,6 +44,7 @@ class Kidder final : public ExactFlow {
   FlowPoint at(const Vec3& x, double t) const override;
   /// Of the nearer of its two surfaces.
   double pressure_on_boundary(const Vec3& x, double t) const override;
+  double off_surface(const Vec3& x, double t) const override;
   double focusing_time() const { return tau_; }                                      ///< [s]
   double shrinkage(double t) const { return std::sqrt(1 - t * t / (tau_ * tau_)); }  ///< h
 

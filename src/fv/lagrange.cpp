@@ -1,5 +1,7 @@
 #include "fv/lagrange.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,24 +67,47 @@ std::vector<BoundaryCondition<D>> Lagrange<D>::conditions() const {
   return list;
 }
 
+/// What the scene says of a cell: the state, and the start whose energy it shares, or -1.
+template <int D>
+std::pair<FlowPoint, int> Lagrange<D>::start_of(int cell) const {
+  const Corners<D> at = cells_.corners_of(cell, cells_.x);
+  const Vec3 x = spatial<D>(centroid<D>(at));
+  std::vector<Vec3> corners;
+  for (const Vector<D>& corner : at) corners.push_back(spatial<D>(corner));
+  FlowPoint point;
+  if (config_.exact) point = config_.exact->at(x, 0);
+  int shares = -1;
+  for (std::size_t k = 0; k < config_.initial.size(); ++k) {
+    const InitialConfig& initial = config_.initial[k];
+    if (!initial.holds(x, corners)) continue;
+    if (initial.density > 0) {
+      point = {initial.density, initial.pressure, {}};
+      shares = initial.energy > 0 ? static_cast<int>(k) : -1;
+    }
+    point.velocity = initial.velocity_at(x);
+  }
+  return {point, shares};
+}
+
 template <int D>
 std::vector<CellStart> Lagrange<D>::start() const {
   std::vector<CellStart> list(cells_.cells());
+  std::vector<int> shares(cells_.cells());
+  std::vector<double> mass(config_.initial.size());  // that shares the energy of each
   for (int c = 0; c < cells_.cells(); ++c) {
     const std::string& material = config_.material_of_region.at(cells_.region[c]);
-    const Vec3 x = spatial<D>(centroid<D>(cells_.corners_of(c, cells_.x)));
-    FlowPoint point;
-    if (config_.exact) point = config_.exact->at(x, 0);
-    for (const InitialConfig& initial : config_.initial) {
-      if (!initial.holds(x)) continue;
-      if (initial.density > 0) point = {initial.density, initial.pressure, {}};
-      point.velocity = initial.velocity_at(x);
-    }
+    auto [point, from] = start_of(c);
+    shares[c] = from;
     const auto solid = config_.densities.find(material);
     if (solid != config_.densities.end()) point.density = solid->second;
     const Closure& closure = *config_.closures.at(material);
     list[c] = {&closure, point.density, closure.energy_at(point.density, point.pressure), point.velocity};
+    if (from >= 0) mass[from] += point.density * simplex_volume<D>(cells_.corners_of(c, cells_.x));
   }
+  sum(mass);
+  for (int c = 0; c < cells_.cells(); ++c)
+    if (shares[c] >= 0 && !list[c].closure->is_solid())
+      list[c].energy = config_.initial[shares[c]].energy / mass[shares[c]];
   return list;
 }
 
@@ -144,7 +169,31 @@ std::vector<Quantity> Lagrange<D>::errors() {
     list.push_back({name + "_L2", units[k], std::sqrt(integral[2 * k + 1])});
     list.push_back({name + "_Linf", units[k], max(largest[k])});
   }
+  add_surface_errors(list);
   return list;
+}
+
+/// How far nodes lie from where the exact flow has its own surfaces, of each boundary that takes over a part of it.
+template <int D>
+void Lagrange<D>::add_surface_errors(std::vector<Quantity>& list) const {
+  const auto& conditions = scheme_.boundary().conditions();
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    if (config_.boundaries[k].exact != ExactBoundary::pressure) continue;
+    double largest = 0;
+    std::vector<double> x(2);  // sum, how many; a node counts once for each of its faces
+    for (const auto& face : cells_.boundary) {
+      if (std::count(conditions[k].attributes.begin(), conditions[k].attributes.end(), face.attribute) == 0) continue;
+      for (int node : face.nodes) {
+        const double off = config_.exact->off_surface(spatial<D>(scheme_.state().x[node]), time_);
+        largest = std::max(largest, off);
+        x[0] += off;
+        x[1] += 1;
+      }
+    }
+    sum(x);
+    list.push_back({fmt::format("{}_off_max", conditions[k].name), "m", max(largest)});
+    list.push_back({fmt::format("{}_off_mean", conditions[k].name), "m", x[0] / x[1]});
+  }
 }
 
 std::unique_ptr<Model> make_lagrange(NamedMesh mesh, LagrangeConfig config) {

@@ -38,6 +38,8 @@ class Lagrange final : public Model {
  private:
   std::vector<BoundaryCondition<D>> conditions() const;
   std::vector<CellStart> start() const;
+  std::pair<FlowPoint, int> start_of(int cell) const;
+  void add_surface_errors(std::vector<Quantity>& list) const;
 
   NamedMesh mesh_;
   LagrangeConfig config_;

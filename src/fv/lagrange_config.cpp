@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +13,9 @@ namespace titin {
 namespace {
 
 constexpr const char* axes[] = {"x", "y", "z"};
+
+/// A corner is at a point when it is as near as this part of the cell's size: coordinates of files have a few digits.
+constexpr double same_point = 1e-3;
 
 bool only_simplices(mfem::ParMesh& mesh) {
   for (int e = 0; e < mesh.GetNE(); ++e) {
@@ -64,9 +68,16 @@ void InitialConfig::bind(Section& s) {
   s.read("upper", upper, {.unit = "m", .doc = "upper corner of the box"});
   s.read("centre", centre, {.unit = "m", .doc = "of the ball it holds in"});
   s.read("radius", radius, {.unit = "m", .range = positive, .doc = "of the ball"});
+  s.read("point", point, {.unit = "m", .doc = "a node of the mesh: holds in the cells that share it"});
+  has_point = s.has("point");
   has_lower = s.has("lower"), has_upper = s.has("upper"), has_radius = s.has("radius");
   s.read("density", density, {.unit = "kg/m^3", .range = positive, .doc = "of a fluid"});
   s.read("pressure", pressure, {.unit = "Pa", .doc = "of a fluid"});
+  s.read("energy", energy,
+         {.range = positive,
+          .doc = "internal energy of a fluid there in J (in the plane J/m), shared out by volume, instead of the "
+                 "pressure's"});
+  if (s.has("energy") && !(density > 0)) s.error("energy", "needs a density", "give the density of this start too");
   s.read("velocity", velocity, {.unit = "m/s", .doc = "of all motions this part"});
   s.choose(
       "motion", motion,
@@ -83,10 +94,13 @@ void InitialConfig::bind(Section& s) {
   s.read("length", length, {.unit = "m", .range = positive, .doc = "of the motion"});
 }
 
-bool InitialConfig::holds(const Vec3& x) const {
+bool InitialConfig::holds(const Vec3& x, const std::vector<Vec3>& corners) const {
   for (int i = 0; i < 3; ++i)
     if ((has_lower && x[i] < lower[i]) || (has_upper && x[i] > upper[i])) return false;
-  return !has_radius || norm(Vec3{x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]}) < radius;
+  if (has_radius && norm(difference(x, centre)) >= radius) return false;
+  return !has_point || std::any_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+    return norm(difference(corner, point)) < same_point * norm(difference(corner, x));
+  });
 }
 
 Vec3 InitialConfig::velocity_at(const Vec3& x) const {
@@ -184,7 +198,8 @@ void LagrangeConfig::check_start(Section& root) const {
     if (densities.count(name) || !closures.count(name)) continue;
     bool everywhere = false;
     for (const auto& start : initial)
-      everywhere = everywhere || (start.density > 0 && !start.has_lower && !start.has_upper && !start.has_radius);
+      everywhere = everywhere ||
+                   (start.density > 0 && !start.has_lower && !start.has_upper && !start.has_radius && !start.has_point);
     if (!everywhere) {
       root.error("initial", fmt::format("nothing says how dense the fluid {} is everywhere", in_quotes(name)),
                  "begin with a table [initial.NAME] with density and pressure and without a box or ball");

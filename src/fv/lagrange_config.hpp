@@ -44,15 +44,17 @@ struct FlowBoundaryConfig {
 struct InitialConfig {
   enum class Motion { uniform, radial, twist, swing, bend };
   std::string name;
-  bool has_lower = false, has_upper = false, has_radius = false;
-  std::array<double, 3> lower{}, upper{}, centre{};
+  bool has_lower = false, has_upper = false, has_radius = false, has_point = false;
+  std::array<double, 3> lower{}, upper{}, centre{}, point{};
   double radius = 0;                 // [m]
   double density = 0, pressure = 0;  // of fluids
+  double energy = 0;                 // internal, shared out by volume; 0: that of the pressure [J], in the plane [J/m]
   std::array<double, 3> velocity{};  // [m/s]
   Motion motion = Motion::uniform;
   double rate = 0, length = 1;  // of the named motions: [m/s] or [1/s], [m]
   void bind(Section& s);
-  bool holds(const Vec3& x) const;
+  /// In a cell around x with these corners.
+  bool holds(const Vec3& x, const std::vector<Vec3>& corners) const;
   Vec3 velocity_at(const Vec3& x) const;
 };
 
