@@ -2,8 +2,8 @@
 """Draws docs/pictures/sedov.png from folders of runs of configs/lagrange/sedov.toml, one row for each.
 
     titin run configs/lagrange/sedov.toml -o results/sedov
-    titin run configs/lagrange/sedov.toml fv.limiter=mood -o results/sedov_mood
-    scripts/plot_lagrange.py results/sedov results/sedov_mood [-o PICTURE]
+    titin run configs/lagrange/sedov.toml fv.order=1 -o results/sedov_first
+    scripts/plot_lagrange.py results/sedov results/sedov_first [-o PICTURE]
 
 Left the density of all cells at the end, where they are; right the same against the distance from the origin, with the
 place of the shock and the density behind it of Sedov's similarity solution. Needs the Python libraries of

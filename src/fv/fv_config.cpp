@@ -44,6 +44,11 @@ void FvConfig::bind(Section& s) {
           .doc = "a flow is smooth in a cell whose nodes differ from its linear velocity by less than this part of "
                  "their differences from its mean"});
   s.read("small_jump", small_jump, {.range = non_negative, .doc = "or by less than this part of the wave speed"});
+  s.read(
+      "shock_jump", shock_jump,
+      {.range = positive,
+       .doc = "a fluid is shocked, and loses its slopes, in a cell that shrinks while its nodes differ from its mean "
+              "velocity by more than this part of the wave speed"});
   s.read("range_tolerance", range_tolerance,
          {.range = non_negative, .doc = "the same, relative to that range; the larger of both holds"});
 }

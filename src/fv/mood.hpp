@@ -1,10 +1,10 @@
 /// A posteriori choice of the order of each cell (MOOD): linear, linear with the limiter, constant.
 ///
 /// A candidate step with linear cells everywhere is judged afterwards. A cell in trouble - values that are no numbers,
-/// a volume or state without meaning, or, where the flow is not smooth, a density (of fluids also a mean stress or
-/// velocity) outside of the range of its neighbours at the start of the step - and it alone loses an order; only nodes
-/// of such cells, and the cells around those nodes, are computed again. Clain, Diot, Loubere (2011), J. Comput. Phys.
-/// 230:4028; Boscheri, Loubere, Maire (2022), J. Comput. Phys. 449:110779.
+/// a volume or state without meaning, a fluid's shock inside it, or, where the flow is not smooth, a density (of fluids
+/// also a mean stress or velocity) outside of the range of its neighbours at the start of the step - and it alone loses
+/// an order; only nodes of such cells, and the cells around those nodes, are computed again. Clain, Diot, Loubere
+/// (2011), J. Comput. Phys. 230:4028; Boscheri, Loubere, Maire (2022), J. Comput. Phys. 449:110779.
 #pragma once
 
 #include <cstdint>

@@ -14,6 +14,9 @@ namespace {
 
 /// A step whose cells change their volumes by more than this many times the bound it was chosen for is taken again.
 constexpr double volume_margin = 2;
+/// A cell whose nodes miss its linear velocity by less than this part of their differences is strained as a whole,
+/// which no jump in it does.
+constexpr double linear_flow = 0.05;
 std::vector<int> numbers(int n) {
   std::vector<int> list(n);
   std::iota(list.begin(), list.end(), 0);
@@ -276,7 +279,7 @@ bool FlowScheme<D>::has_meaning(int cell) const {
 /// and a body that is accelerated as a whole leaves all its velocities.
 template <int D>
 bool FlowScheme<D>::in_trouble(int cell, double dt) const {
-  if (!has_meaning(cell)) return true;
+  if (!has_meaning(cell) || is_shocked(cell)) return true;
   constexpr int judged = Reconstruction<D>::judged_count;
   const CellRecord<D>& before = now_.cell[cell];
   const double c = now_.speed[cell];
@@ -297,22 +300,50 @@ bool FlowScheme<D>::in_trouble(int cell, double dt) const {
   return false;
 }
 
+/// Is a fluid compressed within the cell by a good part of its wave speed, and not as one linear flow? Slopes take a
+/// shock that spreads over their neighbours for a smooth compression: the cell then meets no resistance, takes up no
+/// heat, and collapses.
+template <int D>
+bool FlowScheme<D>::is_shocked(int cell) const {
+  if (closure_[cell]->is_solid() || next_.cell[cell].density <= now_.cell[cell].density) return false;
+  const Vector<D> mean = mean_velocity(cell);
+  const double least = config_.shock_jump * now_.speed[cell];
+  const auto& nodes = mesh_.nodes_of[cell];
+  if (std::none_of(nodes.begin(), nodes.end(), [&](int p) { return norm(difference(next_.v[p], mean)) > least; }))
+    return false;
+  const NodeJumps at = node_jumps(cell, reconstruction_.slopes(cell, *source_.state));
+  return at.jump > linear_flow * at.variation;
+}
+
+/// Over the step.
+template <int D>
+Vector<D> FlowScheme<D>::mean_velocity(int cell) const {
+  Vector<D> mean = velocity_of<D>(now_.cell[cell].q);
+  for (int i = 0; i < D; ++i) mean[i] = 0.5 * (mean[i] + next_.cell[cell].q[i]);
+  return mean;
+}
+
+template <int D>
+typename FlowScheme<D>::NodeJumps FlowScheme<D>::node_jumps(int cell, const Slopes<D>& g) const {
+  const FlowState<D>& from = *source_.state;
+  const Vector<D> mean = mean_velocity(cell);
+  NodeJumps at;
+  for (int p : mesh_.nodes_of[cell]) {
+    const Vector<D> s = difference(from.x[p], from.cell[cell].centre);
+    Vector<D> rest = difference(next_.v[p], mean);
+    at.variation = std::max(at.variation, norm(rest));
+    for (int i = 0; i < D; ++i) rest[i] -= dot(g[i], s);
+    at.jump = std::max(at.jump, norm(rest));
+  }
+  return at;
+}
+
 /// Do the cell's nodes move as its own linear velocity says? Where the flow is smooth they do but for terms of second
 /// order in its size, at jumps they do not.
 template <int D>
 bool FlowScheme<D>::is_smooth(int cell, const Slopes<D>& g) const {
-  const FlowState<D>& from = *source_.state;
-  Vector<D> mean = velocity_of<D>(now_.cell[cell].q);
-  for (int i = 0; i < D; ++i) mean[i] = 0.5 * (mean[i] + next_.cell[cell].q[i]);
-  double jump = 0, variation = 0;
-  for (int p : mesh_.nodes_of[cell]) {
-    const Vector<D> s = difference(from.x[p], from.cell[cell].centre);
-    Vector<D> rest = difference(next_.v[p], mean);
-    variation = std::max(variation, norm(rest));
-    for (int i = 0; i < D; ++i) rest[i] -= dot(g[i], s);
-    jump = std::max(jump, norm(rest));
-  }
-  return jump <= std::max(config_.smooth_jump * variation, config_.small_jump * now_.speed[cell]);
+  const NodeJumps at = node_jumps(cell, g);
+  return at.jump <= std::max(config_.smooth_jump * at.variation, config_.small_jump * now_.speed[cell]);
 }
 
 template <int D>

@@ -80,6 +80,13 @@ class FlowScheme {
   void update(std::span<const int> cells, double t, double dt);
   void take_forces(int cell, double dt);
   bool in_trouble(int cell, double dt) const;
+  struct NodeJumps {       // largest over a cell's nodes [m/s]
+    double variation = 0;  // from its mean velocity
+    double jump = 0;       // from its linear velocity
+  };
+  NodeJumps node_jumps(int cell, const Slopes<D>& g) const;
+  bool is_shocked(int cell) const;
+  Vector<D> mean_velocity(int cell) const;
   bool is_smooth(int cell, const Slopes<D>& g) const;
   bool has_meaning(int cell) const;
   std::string judge(double t, double dt);
