@@ -44,6 +44,14 @@ boundary.<NAME>.wall.normal
 boundary.<NAME>.wall.penalty
 boundary.<NAME>.wall.point
 boundary.<NAME>.wall.travel
+exact.explosion.end
+exact.explosion.gamma
+exact.explosion.inside.density
+exact.explosion.inside.pressure
+exact.explosion.outside.density
+exact.explosion.outside.pressure
+exact.explosion.radius
+exact.explosion.shells
 exact.kidder.entropy
 exact.kidder.inner_density
 exact.kidder.inner_radius
@@ -53,6 +61,11 @@ exact.noh.density
 exact.noh.gamma
 exact.noh.pressure
 exact.noh.speed
+exact.piston.density
+exact.piston.gamma
+exact.piston.length
+exact.piston.pressure
+exact.piston.speed
 exact.riemann.gamma
 exact.riemann.left.density
 exact.riemann.left.pressure
@@ -61,6 +74,16 @@ exact.riemann.position
 exact.riemann.right.density
 exact.riemann.right.pressure
 exact.riemann.right.velocity
+exact.sedov.density
+exact.sedov.energy
+exact.sedov.gamma
+exact.sedov.pressure
+exact.simple_wave.amplitude
+exact.simple_wave.centre
+exact.simple_wave.density
+exact.simple_wave.gamma
+exact.simple_wave.pressure
+exact.simple_wave.width
 exact.solution
 exact_motion.blake.pressure
 exact_motion.blake.radius
@@ -82,14 +105,17 @@ fv.predictor
 fv.principle_tolerance
 fv.range_tolerance
 fv.shock_impedance
+fv.shock_jump
 fv.small_jump
 fv.smooth_jump
 fv.volume_change
 initial.<NAME>.centre
 initial.<NAME>.density
+initial.<NAME>.energy
 initial.<NAME>.length
 initial.<NAME>.lower
 initial.<NAME>.motion
+initial.<NAME>.point
 initial.<NAME>.pressure
 initial.<NAME>.radius
 initial.<NAME>.rate
@@ -317,6 +343,7 @@ materials.<NAME>.volumetric.bulk_modulus
 materials.<NAME>.volumetric.law
 mesh.box
 mesh.cells
+mesh.cuts
 mesh.file
 mesh.kind
 mesh.refine
@@ -373,7 +400,7 @@ boundary.<NAME>.exact none pressure velocity
 boundary.<NAME>.obstacle.contact slip stick
 boundary.<NAME>.rail.along x y z
 boundary.<NAME>.wall true false
-exact.solution none kidder riemann noh
+exact.solution none kidder riemann noh sedov explosion piston simple_wave
 exact_motion.solution none swing blake
 fv.cascade limited constant
 fv.limiter mood barth_jespersen none
@@ -396,6 +423,7 @@ materials.<NAME>.terms.<NAME>.law active_stress arruda_boyce blemker_passive ble
 materials.<NAME>.terms.<NAME>.prony.reference long_term instantaneous
 materials.<NAME>.terms.<NAME>.spectrum.reference long_term instantaneous
 materials.<NAME>.volumetric.law simo quad log quad_log
+mesh.cuts same alternating crossed
 mesh.kind tensor simplices wedges
 mesh.shape.bend cylinder sphere
 model muscle lagrange
