@@ -112,6 +112,24 @@ void Rod::accept() {
   follow();
 }
 
+/// Every rank holds and reads the whole rod.
+void Rod::walk_state(StateWalk& walk) {
+  StateRows nodes{"nodes", {}};
+  for (int i = 0; i < trial_.Size(); ++i) nodes.number.push_back(i);
+  integrator_.walk(walk, nodes);
+  system_.walk(walk);
+  history_.walk(walk);
+  walk.number("time", time_);
+  walk.number("remember", remember_);
+  walk.number("largest_change", largest_change_);
+  std::vector<double> values;
+  for (const Quantity& q : quantities_) values.push_back(q.value);
+  walk.common("quantities", values);
+  if (!walk.reading()) return;
+  for (std::size_t k = 0; k < quantities_.size(); ++k) quantities_[k].value = values[k];
+  trial_ = displacement();
+}
+
 double Rod::largest_dt() const { return std::numeric_limits<double>::infinity(); }
 
 std::vector<double> Rod::kinks() const {

@@ -31,6 +31,7 @@ class Rod : public Model {
   const std::vector<Field>& fields() const override { return fields_.fields(); }
   mfem::ParMesh& mesh() override { return *mesh_.mesh; }
   long unknowns() const override { return system_.lattice().nodes(); }
+  void walk_state(StateWalk& walk) override;
   RodSystem& system() { return system_; }
   const mfem::Vector& displacement() const { return integrator_.u(); }
   const Integrator& motion() const { return integrator_; }

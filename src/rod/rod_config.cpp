@@ -182,6 +182,7 @@ NamedMesh RodConfig::make_mesh() const {
   serial.FinalizeMesh();
   std::vector<int> partition(count);
   for (int e = 0; e < count; ++e) partition[e] = static_cast<int>(static_cast<long>(e) * ranks() / count);
+  named.numbers = MeshNumbers(serial, partition.data());
   named.mesh = std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, serial, partition.data());
   named.regions["muscle"] = muscle_region;
   if (tendon.given()) named.regions["tendon"] = tendon_region;

@@ -27,6 +27,22 @@ void RodHistory::update(const mfem::Vector& u, const mfem::Vector& v, const mfem
   started_ = true;
 }
 
+void RodHistory::walk(StateWalk& walk) {
+  walk.number("work_boundary", work_);
+  walk.number("energy_at_start", energy_at_start_);
+  std::vector<double> ends(end_forces_old_.begin(), end_forces_old_.end());
+  walk.common("end_forces", ends);
+  std::copy(ends.begin(), ends.end(), end_forces_old_.begin());
+  for (std::size_t i = 0; i < accounts_.size(); ++i)
+    for (std::size_t t = 0; t < accounts_[i].size(); ++t) {
+      Account& account = accounts_[i][t];
+      const std::string name = std::to_string(i) + "_" + std::to_string(t);
+      walk.number("term_" + name, account.value);
+      walk.number("dissipated_" + name, account.dissipated);
+      walk.common("stress_" + name, account.stress_old);
+    }
+}
+
 void RodHistory::add_ends(const mfem::Vector& u) {
   for (const RodEndConfig& end : system_.config().ends) {
     const int node = system_.lattice().end_node(end.at_far_end);

@@ -19,6 +19,7 @@ class RodHistory {
   /// Takes in an accepted step: the system's forces are those at u. `v` is the scheme's velocity, `seen` that of
   /// fibre rates.
   void update(const mfem::Vector& u, const mfem::Vector& v, const mfem::Vector& seen);
+  void walk(StateWalk& walk);
   const std::vector<Quantity>& quantities() const { return list_; }
   const std::string& shown() const { return shown_; }
 

@@ -61,6 +61,17 @@ void RodSystem::accept_forces() {
 
 void RodSystem::commit_history() { history_.commit(); }
 
+void RodSystem::walk(StateWalk& walk) {
+  walk.common("history", history_.all_old());
+  walk.common("new_history", history_.all_now());
+  for (auto [name, forces] : {std::pair{"static_forces", &static_forces_}, {"inertial_forces", &inertial_forces_}}) {
+    std::vector<double> values(forces->begin(), forces->end());
+    walk.common(name, values);
+    std::copy(values.begin(), values.end(), forces->begin());
+  }
+  accept_forces();
+}
+
 /// Sets stretches at the points; false where one is not positive.
 bool RodSystem::stretch(const mfem::Vector& u) {
   const auto of = [this](const mfem::Vector& v) {

@@ -34,6 +34,7 @@ class RodSystem {
   /// The forces of the last residual() become those of the beginning of the next step.
   void accept_forces();
   void commit_history();
+  void walk(StateWalk& walk);  ///< what the accepted step left to the next
   /// M a = -R where nodes are free and have mass; 0 elsewhere.
   mfem::Vector initial_acceleration(const mfem::Vector& R) const;
 
@@ -64,7 +65,7 @@ class RodSystem {
   const RodConfig& config_;
   Lattice lattice_;
   std::vector<Part> parts_;
-  mutable History history_;
+  History history_;
   RodStep step_;
   mfem::Array<int> given_;
   std::vector<const Table*> given_values_;
