@@ -31,14 +31,6 @@ void set_stress(const Sym3& T, CellFields<D>& q) {
     std::copy(T.begin(), T.end(), q.begin() + 3);
 }
 
-/// Of solids alone: with images Noh's gas is denser behind its shock and takes half as many more steps. Collective.
-template <int D>
-const std::vector<Mirrors<D>>& planes_of_symmetry(const Boundary<D>& boundary, const std::vector<CellStart>& start) {
-  static const std::vector<Mirrors<D>> none;
-  const auto is_fluid = [](const CellStart& cell) { return !cell.closure->is_solid(); };
-  return any_of(std::any_of(start.begin(), start.end(), is_fluid)) ? none : boundary.mirrors();
-}
-
 }  // namespace
 
 template <int D>
@@ -55,7 +47,7 @@ FlowScheme<D>::FlowScheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, co
       waves_(mesh.cells()),
       stiffening_(mesh.cells()),
       boundary_(mesh, exchange, std::move(conditions)),
-      reconstruction_(mesh, exchange, planes_of_symmetry(boundary_, start)),
+      reconstruction_(mesh, exchange, boundary_.mirrors()),
       nodes_(mesh, exchange, boundary_),
       mood_(mesh, exchange, config.cascade),
       now_(mesh.cells(), mesh.nodes()),

@@ -223,6 +223,21 @@ MeanErrors mean_errors(const Flow<D>& flow, const ExactFlow& exact) {
   return {x[0], x[1]};
 }
 
+/// Integral over the body of the size of the mean, over the cells about each node, of an error in cells; all ranks.
+template <int D>
+double patch_error(Flow<D>& flow, const std::function<double(int cell)>& error) {
+  std::vector<double> patch(flow.mesh.nodes()), whole(1);
+  for (int c = 0; c < flow.mesh.cells(); ++c) {
+    const double part = flow.scheme->state().volume[c] * error(c) / (D + 1);
+    for (int node : flow.mesh.nodes_of[c]) patch[node] += part;
+  }
+  flow.exchange.sum(patch.data(), 1);
+  for (int p = 0; p < flow.mesh.nodes(); ++p)
+    if (flow.exchange.owns(p)) whole[0] += std::abs(patch[p]);
+  sum(whole);
+  return whole[0];
+}
+
 inline const Table at_rest{0.0};
 
 template <int D>
