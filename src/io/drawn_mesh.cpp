@@ -14,6 +14,8 @@ constexpr int space_components = 3;
 /// Of cells with straight edges VTK's oldest types, which every reader knows.
 std::uint8_t type_of(mfem::Geometry::Type geometry, int order) {
   switch (geometry) {
+    case mfem::Geometry::SEGMENT:
+      return order == 1 ? 3 : 68;
     case mfem::Geometry::TRIANGLE:
       return order == 1 ? 5 : 69;
     case mfem::Geometry::SQUARE:

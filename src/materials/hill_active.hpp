@@ -23,6 +23,7 @@ struct HillActive {
   double peak_stress = 0, max_strain_rate = 0;
   Activation activation;
   HillCurve curve = HillCurve::flexodeal;
+  HillStress stress = HillStress::kirchhoff;
 
   void bind(Section& s) {
     s.read("peak_stress", peak_stress,
@@ -38,12 +39,15 @@ struct HillActive {
               {"flexodeal_smooth", HillCurve::flexodeal_smooth},
               {"degroote", HillCurve::degroote}},
              {.doc = "force-length and force-velocity curves"});
+    s.choose("stress", stress, {{"kirchhoff", HillStress::kirchhoff}, {"nominal", HillStress::nominal}},
+             {.doc = "what the curve gives: Kirchhoff stress, or force per undeformed area (less by the stretch)"});
   }
   template <class T>
   T fibre_stress(const T& stretch, const T& rate, double time) const {
     const double active = peak_stress * activation(time);
     if (active == 0) return 0.0;
-    return active * hill::active_force(curve, stretch) * hill::force_velocity(curve, rate / max_strain_rate);
+    const T sigma = active * hill::active_force(curve, stretch) * hill::force_velocity(curve, rate / max_strain_rate);
+    return stress == HillStress::nominal ? stretch * sigma : sigma;
   }
 };
 TITIN_LAW(HillActive)

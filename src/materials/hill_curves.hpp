@@ -19,6 +19,10 @@ namespace titin {
 
 enum class HillCurve { flexodeal, flexodeal_smooth, degroote };
 
+/// What the curves are multiples of: Kirchhoff stress along the fibre, or force per undeformed area, which is less by
+/// the stretch where the volume stays. Models in space have the former, those of whole muscles the latter.
+enum class HillStress { kirchhoff, nominal };
+
 namespace hill {
 
 struct Sine {
@@ -116,6 +120,13 @@ T passive_force(HillCurve curve, const T& stretch) {
   using std::exp;
   const PassiveExponential p;
   return (exp(p.k * (stretch - 1.0)) - p.offset) / p.scale;
+}
+
+/// Integral of passive_force(x) from 1: the same where the curve gives nominal stress.
+inline double passive_nominal_energy(HillCurve curve, double stretch) {
+  if (curve != HillCurve::degroote) return passive_table.integral(1, stretch);
+  const PassiveExponential p;
+  return (std::expm1(p.k * (stretch - 1)) / p.k - p.offset * (stretch - 1)) / p.scale;
 }
 
 /// Integral of passive_force(x) / x from 1: the stored energy over the largest isometric stress.

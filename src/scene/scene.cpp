@@ -6,12 +6,13 @@
 #include "fv/lagrange.hpp"
 #include "mesh/box_shape.hpp"
 #include "mesh/mesh.hpp"
+#include "rod/rod.hpp"
 
 namespace titin {
 
 namespace {
 
-enum class ModelName { muscle, lagrange };
+enum class ModelName { muscle, lagrange, rod };
 
 /// The walk through all keys: the same for a scene and for the list of keys.
 struct SceneConfig {
@@ -25,18 +26,15 @@ struct SceneConfig {
   MuscleConfig muscle;
   PetscOptionsConfig petsc;
   LagrangeConfig lagrange;
+  RodConfig rod;
 
   NamedMesh bind(Section root) {
     root.read("title", title, {.doc = "one line that says what happens"});
-    root.choose("model", model, {{"muscle", ModelName::muscle}, {"lagrange", ModelName::lagrange}},
+    root.choose("model", model,
+                {{"muscle", ModelName::muscle}, {"lagrange", ModelName::lagrange}, {"rod", ModelName::rod}},
                 {.required = true, .doc = "the formulation"});
-    Section mesh_section = root.section("mesh", "a box, or a file");
-    mesh.bind(mesh_section);
-    NamedMesh named = root.describing() ? NamedMesh{} : NamedMesh::read(mesh, mesh_section);
-    BoxShape shape;
-    Section shape_section = mesh_section.section("shape", "where a box lies, and how it is bent");
-    shape.bind(shape_section);
-    if (named.mesh && !mesh.box.empty() && mesh_section.has("shape")) shape.apply(*named.mesh);
+    NamedMesh named;
+    if (root.describing() || model != ModelName::rod) named = bind_mesh(root);
     Section time = root.section("time", "from 0 to the end by steps");
     clock.by_stability = model == ModelName::lagrange;
     clock.bind(time);
@@ -49,9 +47,22 @@ struct SceneConfig {
       petsc.bind(options);
     }
     if (root.describing() || model == ModelName::lagrange) lagrange.bind(root, named);
+    if (root.describing() || model == ModelName::rod) named = rod.bind(root);
     Section other = root.section("reference", "a history to compare with");
     reference.bind(other);
     root.leave("test");
+    return named;
+  }
+
+ private:
+  NamedMesh bind_mesh(Section root) {
+    Section mesh_section = root.section("mesh", "a box, or a file");
+    mesh.bind(mesh_section);
+    NamedMesh named = root.describing() ? NamedMesh{} : NamedMesh::read(mesh, mesh_section);
+    BoxShape shape;
+    Section shape_section = mesh_section.section("shape", "where a box lies, and how it is bent");
+    shape.bind(shape_section);
+    if (named.mesh && !mesh.box.empty() && mesh_section.has("shape")) shape.apply(*named.mesh);
     return named;
   }
 };
@@ -72,6 +83,8 @@ Scene scene_of(Config text) {
   scene.petsc = std::make_unique<PetscOptionsInForce>(std::move(config.petsc));
   if (config.model == ModelName::muscle)
     scene.model = std::make_unique<Muscle>(std::move(mesh), std::move(config.muscle));
+  else if (config.model == ModelName::rod)
+    scene.model = std::make_unique<Rod>(std::move(mesh), std::move(config.rod));
   else
     scene.model = make_lagrange(std::move(mesh), std::move(config.lagrange));
   scene.reference.match(scene.model->quantities(), text.root().section("reference"));

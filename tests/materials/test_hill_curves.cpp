@@ -4,6 +4,7 @@
 #include "materials/collagen_table.hpp"
 #include "materials/hill_active.hpp"
 #include "materials/hill_curves.hpp"
+#include "materials/hill_passive.hpp"
 
 namespace titin {
 namespace {
@@ -107,6 +108,23 @@ TEST(HillCurves, PassiveEnergiesDifferentiateToTheirForces) {
       const double slope = (hill::passive_energy(curve, x + h) - hill::passive_energy(curve, x - h)) / (2 * h);
       EXPECT_NEAR(slope, hill::passive_force(curve, x) / x, second_order) << x;
     }
+}
+
+/// Nominal: force per undeformed area, the Kirchhoff stress being larger by the stretch; the energy is its integral.
+TEST(HillCurves, NominalStressIsTheCurve) {
+  const double h = 1e-6, difference = 1e-8;
+  HillPassive passive;
+  passive.peak_stress = 1;
+  passive.stress = HillStress::nominal;
+  for (HillCurve curve : {HillCurve::flexodeal, HillCurve::degroote}) {
+    passive.curve = curve;
+    EXPECT_EQ(passive.energy(1), 0);
+    for (double x : {0.95, 1.1, 1.3, 1.45, 1.6}) {
+      const double slope = (passive.energy(x + h) - passive.energy(x - h)) / (2 * h);
+      EXPECT_NEAR(slope, hill::passive_force(curve, x), difference) << x;
+      EXPECT_NEAR(passive.fibre_stress(x, 0.0, 0) / x, hill::passive_force(curve, x), round_off) << x;
+    }
+  }
 }
 
 }  // namespace
