@@ -23,6 +23,8 @@ boundary.<NAME>.displacement.x
 boundary.<NAME>.displacement.y
 boundary.<NAME>.displacement.z
 boundary.<NAME>.exact
+boundary.<NAME>.force
+boundary.<NAME>.mass
 boundary.<NAME>.normal_velocity
 boundary.<NAME>.obstacle.contact
 boundary.<NAME>.obstacle.normal
@@ -233,6 +235,7 @@ materials.<NAME>.mix.terms.<NAME>.spectrum.longest
 materials.<NAME>.mix.terms.<NAME>.spectrum.reference
 materials.<NAME>.mix.terms.<NAME>.spectrum.shortest
 materials.<NAME>.mix.terms.<NAME>.stiffness
+materials.<NAME>.mix.terms.<NAME>.stress
 materials.<NAME>.mix.terms.<NAME>.stress_free_rest
 materials.<NAME>.mix.terms.<NAME>.stress_scale
 materials.<NAME>.mix.terms.<NAME>.switch
@@ -331,6 +334,7 @@ materials.<NAME>.terms.<NAME>.spectrum.longest
 materials.<NAME>.terms.<NAME>.spectrum.reference
 materials.<NAME>.terms.<NAME>.spectrum.shortest
 materials.<NAME>.terms.<NAME>.stiffness
+materials.<NAME>.terms.<NAME>.stress
 materials.<NAME>.terms.<NAME>.stress_free_rest
 materials.<NAME>.terms.<NAME>.stress_scale
 materials.<NAME>.terms.<NAME>.switch
@@ -376,6 +380,23 @@ output.times
 output.wall_limit
 petsc.<NAME>
 reference.history
+rod.area
+rod.cells
+rod.inertia
+rod.kind
+rod.length
+rod.masses
+rod.order
+rod.pennation
+rod.scale
+rod.spacing
+rod.stability
+rod.start.displacement
+rod.start.mode
+rod.start.stretch
+rod.start.velocity
+rod.tendon.area
+rod.tendon.length
 solver.energy_tolerance
 solver.globalisation
 solver.increment_tolerance
@@ -426,7 +447,7 @@ materials.<NAME>.volumetric.law simo quad log quad_log
 mesh.cuts same alternating crossed
 mesh.kind tensor simplices wedges
 mesh.shape.bend cylinder sphere
-model muscle lagrange
+model muscle lagrange rod
 muscle.element three_field displacement
 muscle.ellipticity true false
 muscle.error_estimate true false
@@ -436,6 +457,10 @@ output.fields true false
 output.format vtu vtkhdf vtkhdf_transient
 output.jumps nodes means kept
 output.precision single double
+rod.inertia dynamic quasi-static
+rod.kind continuum chain massless
+rod.spacing centred even
+rod.stability true false
 solver.globalisation line_search trust_region
 solver.inexact true false
 solver.linear auto direct block condensed

@@ -6,11 +6,12 @@ which keys a law takes; it does not know units (only that there is one) nor what
 import re
 
 # What the key table does not say: tables that every scene has, the runner's own table, and the two forms of a number that varies.
-NEEDED = ["model", "mesh", "time", "materials"]
+NEEDED = ["model", "time", "materials"]
+NEEDED_BY_MODEL = {"muscle": "mesh", "lagrange": "mesh", "rod": "rod"}
 RUNNERS = "test"
 # Keys that are required under a condition: on the key beside them, on its absence, or on the model.
 WHEN = {
-    "time.step": "model = muscle",
+    "time.step": "model = muscle | rod",
     "materials.<NAME>.density": "no fluid",
     "damage.scale": "law = exponential | simo_ju",
     "damage.failure": "law = balzani",
@@ -74,9 +75,10 @@ def value_of(key):
         return [{"type": "array", "items": {"type": "integer", **range_}, "minItems": 1}]
     if kind in ("number", "number or curve in time"):
         return numbers(key, 1, 1) + ([{"$ref": "#/definitions/curve"}] if kind != "number" else [])
-    size = re.match(r"(\d+) numbers", kind)  # two where the body is plane
+    size = re.match(r"(\d+) numbers", kind)  # two where the body is plane; markers of a rod have one
     if size or kind.startswith("numbers"):
-        found = numbers(key, int(size[1]) - 1 if size else 1, int(size[1]) if size else None)
+        least = int(size[1]) - 1 if size and not key["path"].startswith("markers.") else 1
+        found = numbers(key, least, int(size[1]) if size else None)
         return found + ([{"$ref": "#/definitions/directions"}] if key["path"].split(".")[-1] in DIRECTIONS else [])
     raise ValueError(f"{key['path']}: no schema for the type '{kind}'")
 
@@ -209,11 +211,13 @@ def schema_of(keys, laws):
     term, terms["additionalProperties"] = terms["additionalProperties"], {"$ref": "#/definitions/term"}
     schema["properties"][RUNNERS] = {"type": "object", "description": "how the tests run this scene; the program ignores it"}
     schema["required"] = NEEDED
+    schema["allOf"] = [{"if": {"properties": {"model": {"const": model}}}, "then": {"required": [table]}}
+                       for model, table in NEEDED_BY_MODEL.items()]  # fmt: skip
     for key in keys:
         if key["required"] and when(key).startswith("model = "):
             table, _, name = key["path"].rpartition(".")
-            schema.setdefault("allOf", []).append(
-                {"if": {"properties": {"model": {"const": when(key).removeprefix("model = ")}}},
+            schema["allOf"].append(
+                {"if": {"properties": {"model": {"enum": when(key).removeprefix("model = ").split(" | ")}}},
                  "then": {"properties": {table: {"required": [name]}}}})  # fmt: skip
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": "A scene of Titin",
             "$comment": "Written by scripts/reference.py; do not edit."}  # fmt: skip

@@ -34,6 +34,9 @@ SCENES = {
                12, 1e-9),
     "sod": ("configs/lagrange/sod.toml", ["mesh.cells=[30, 3]", "output.history_every=1", "output.checkpoint_every=20"],
             40, 1e-10),
+    # Every rank computes the whole rod: nothing may differ.
+    "rod": ("configs/rod/lifted_load.toml", ["time.end=0.2 s", "output.checkpoint_every=20"], 80, 0),
+    "chain": ("configs/rod/chain.toml", ["time.end=0.1 s", "output.checkpoint_every=20"], 80, 0),
 }  # fmt: skip
 
 
