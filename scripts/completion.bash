@@ -54,6 +54,10 @@ exact.explosion.outside.density
 exact.explosion.outside.pressure
 exact.explosion.radius
 exact.explosion.shells
+exact.hugoniot.density
+exact.hugoniot.slope
+exact.hugoniot.sound_speed
+exact.hugoniot.speed
 exact.kidder.entropy
 exact.kidder.inner_density
 exact.kidder.inner_radius
@@ -69,12 +73,18 @@ exact.piston.length
 exact.piston.pressure
 exact.piston.speed
 exact.riemann.gamma
+exact.riemann.left.covolume
 exact.riemann.left.density
+exact.riemann.left.gamma
 exact.riemann.left.pressure
+exact.riemann.left.stiffening
 exact.riemann.left.velocity
 exact.riemann.position
+exact.riemann.right.covolume
 exact.riemann.right.density
+exact.riemann.right.gamma
 exact.riemann.right.pressure
+exact.riemann.right.stiffening
 exact.riemann.right.velocity
 exact.sedov.density
 exact.sedov.energy
@@ -121,6 +131,7 @@ initial.<NAME>.point
 initial.<NAME>.pressure
 initial.<NAME>.radius
 initial.<NAME>.rate
+initial.<NAME>.regions
 initial.<NAME>.upper
 initial.<NAME>.velocity
 initial.centre
@@ -349,11 +360,14 @@ mesh.box
 mesh.cells
 mesh.cuts
 mesh.file
+mesh.interfaces
 mesh.kind
 mesh.refine
 mesh.shape.bend
 mesh.shape.inner_radius
 mesh.shape.origin
+mesh.shape.ripple
+mesh.shape.ripple_at
 mesh.shape.skew
 mesh.thickness
 mesh.unit
@@ -421,7 +435,7 @@ boundary.<NAME>.exact none pressure velocity
 boundary.<NAME>.obstacle.contact slip stick
 boundary.<NAME>.rail.along x y z
 boundary.<NAME>.wall true false
-exact.solution none kidder riemann noh sedov explosion piston simple_wave
+exact.solution none kidder riemann noh sedov explosion piston hugoniot simple_wave
 exact_motion.solution none swing blake
 fv.cascade limited constant
 fv.limiter mood barth_jespersen none

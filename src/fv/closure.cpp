@@ -78,6 +78,7 @@ class SolidClosure final : public Closure {
     return {law.U, law.dU};
   }
 
+  std::vector<double> kinks() const override { return material_->kinks(); }
   bool has_fibres() const override { return material_->has_fibres(); }
   void fibre_stretch(const CellBatch& in, double* stretch) const override {
     std::array<double, batch> rate, activation;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "materials/fluid.hpp"
 #include "materials/material.hpp"
@@ -48,6 +49,7 @@ class Closure {
   /// Does it have a direction of fibres, and how far are n cells stretched along it? 0 without.
   virtual bool has_fibres() const { return false; }
   virtual void fibre_stretch(const CellBatch& in, double* stretch) const { std::fill_n(stretch, in.n, 0.0); }
+  virtual std::vector<double> kinks() const { return {}; }  ///< times at which an activation has a kink [s]
   /// Is this a state the material is good for?
   virtual bool admissible(double density, double energy) const = 0;
   /// Energy stored without heat [J/kg]: what a solid gives back. Fluids store none.

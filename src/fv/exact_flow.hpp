@@ -3,9 +3,8 @@
 /// * kidder: isentropic compression of a shell, homologous r(t) = h(t) R, h = sqrt(1 - t^2 / tau^2), until it focuses
 /// at
 ///   tau. Kidder (1976), Nucl. Fusion 16:3; set-up of Maire (2009), J. Comput. Phys. 228:2391, sec. 5.4.
-/// * riemann: two states beside a plane x = position. Toro (2009), Riemann Solvers, ch. 4.
 /// * noh: uniform implosion onto a point (3-D) or line (2-D). Noh (1987), J. Comput. Phys. 72:78.
-/// Others have files of their own. All are of perfect gases, about the origin, in SI units.
+/// Others have files of their own. All are about the origin or along x, in SI units.
 #pragma once
 
 #include <memory>
@@ -51,29 +50,6 @@ class Kidder final : public ExactFlow {
  private:
   Shell shell_;
   double gamma_, tau_;
-};
-
-class Riemann final : public ExactFlow {
- public:
-  struct Side {
-    double density = 1, pressure = 1, velocity = 0;
-  };
-  Riemann(const Side& left, const Side& right, double position, double gamma);
-  FlowPoint at(const Vec3& x, double t) const override;
-  double star_pressure() const { return p_; }
-  double star_velocity() const { return u_; }
-
- private:
-  struct Wave {
-    double slope;  // of the velocity over the pressure [m/s/Pa]
-    double jump;   // of the velocity from the side's to the star state [m/s]
-  };
-  double sound(const Side& s) const { return std::sqrt(gamma_ * s.pressure / s.density); }
-  Wave wave(const Side& side, double p) const;
-  Side sample(const Side& side, double speed) const;
-
-  Side left_, right_;
-  double position_, gamma_, p_ = 0, u_ = 0;
 };
 
 class Noh final : public ExactFlow {

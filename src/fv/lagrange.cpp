@@ -79,7 +79,7 @@ std::pair<FlowPoint, int> Lagrange<D>::start_of(int cell) const {
   int shares = -1;
   for (std::size_t k = 0; k < config_.initial.size(); ++k) {
     const InitialConfig& initial = config_.initial[k];
-    if (!initial.holds(x, corners)) continue;
+    if (!initial.holds(cells_.region[cell], x, corners)) continue;
     if (initial.density > 0) {
       point = {initial.density, initial.pressure, {}};
       shares = initial.energy > 0 ? static_cast<int>(k) : -1;

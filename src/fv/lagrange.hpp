@@ -23,6 +23,7 @@ class Lagrange final : public Model {
   double time() const override { return time_; }
   double largest_dt() const override { return scheme_.largest_dt(); }
 
+  std::vector<double> kinks() const override { return config_.kinks(); }
   std::vector<Quantity> quantities() override { return history_.quantities(time_); }
   std::vector<Quantity> conservation() override { return history_.conservation(); }
   std::vector<Quantity> errors() override;

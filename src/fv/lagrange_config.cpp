@@ -63,7 +63,17 @@ void FlowBoundaryConfig::check(Section& s) const {
     s.section("obstacle").error("normal", "a direction of length zero", "give the direction out of it, e.g. [0, 0, 1]");
 }
 
-void InitialConfig::bind(Section& s) {
+void InitialConfig::bind(Section& s, const NamedMesh& mesh) {
+  std::vector<std::string> names;
+  s.read("regions", names, {.doc = "regions of the mesh it holds in (default: all)"});
+  for (const std::string& region : names) {
+    const auto found = mesh.regions.find(region);
+    if (found != mesh.regions.end())
+      regions.push_back(found->second);
+    else if (mesh.mesh)
+      s.error("regions", fmt::format("the mesh has no region {}", in_quotes(region)),
+              "it has: " + names_of(mesh.regions));
+  }
   s.read("lower", lower, {.unit = "m", .doc = "lower corner of the box it holds in (default: everywhere)"});
   s.read("upper", upper, {.unit = "m", .doc = "upper corner of the box"});
   s.read("centre", centre, {.unit = "m", .doc = "of the ball it holds in"});
@@ -94,7 +104,13 @@ void InitialConfig::bind(Section& s) {
   s.read("length", length, {.unit = "m", .range = positive, .doc = "of the motion"});
 }
 
-bool InitialConfig::holds(const Vec3& x, const std::vector<Vec3>& corners) const {
+bool InitialConfig::fills(int region) const {
+  return !has_lower && !has_upper && !has_radius && !has_point &&
+         (regions.empty() || std::count(regions.begin(), regions.end(), region) > 0);
+}
+
+bool InitialConfig::holds(int region, const Vec3& x, const std::vector<Vec3>& corners) const {
+  if (!regions.empty() && std::count(regions.begin(), regions.end(), region) == 0) return false;
   for (int i = 0; i < 3; ++i)
     if ((has_lower && x[i] < lower[i]) || (has_upper && x[i] > upper[i])) return false;
   if (has_radius && norm(difference(x, centre)) >= radius) return false;
@@ -154,11 +170,23 @@ void LagrangeConfig::bind(Section& root, const NamedMesh& mesh) {
   root.each("initial", "how cells start", [&](const std::string& name, Section s) {
     InitialConfig start;
     start.name = name;
-    start.bind(s);
+    start.bind(s, mesh);
     initial.push_back(start);
   });
   markers = read_markers(root, mesh);
   if (!root.describing() && mesh.mesh) check_start(root);
+}
+
+std::vector<double> LagrangeConfig::kinks() const {
+  std::vector<double> all;
+  const auto take = [&](const std::vector<double>& times) { all.insert(all.end(), times.begin(), times.end()); };
+  for (const FlowBoundaryConfig& boundary : boundaries) {
+    for (const Table& component : boundary.velocity) take(component.kinks());
+    for (const Table* table : {&boundary.normal_velocity, &boundary.pressure, &boundary.traction_scale})
+      take(table->kinks());
+  }
+  for (const auto& [name, closure] : closures) take(closure->kinks());
+  return all;
 }
 
 void LagrangeConfig::read_material(const std::string& name, Section s) {
@@ -197,9 +225,7 @@ void LagrangeConfig::check_start(Section& root) const {
   for (const auto& [attribute, name] : material_of_region) {
     if (densities.count(name) || !closures.count(name)) continue;
     bool everywhere = false;
-    for (const auto& start : initial)
-      everywhere = everywhere ||
-                   (start.density > 0 && !start.has_lower && !start.has_upper && !start.has_radius && !start.has_point);
+    for (const auto& start : initial) everywhere = everywhere || (start.density > 0 && start.fills(attribute));
     if (!everywhere) {
       root.error("initial", fmt::format("nothing says how dense the fluid {} is everywhere", in_quotes(name)),
                  "begin with a table [initial.NAME] with density and pressure and without a box or ball");

@@ -40,10 +40,11 @@ struct FlowBoundaryConfig {
   void check(Section& s) const;
 };
 
-/// A start: everywhere, in a box or in a ball; a later one overrides those before it.
+/// A start: everywhere, in regions, in a box or in a ball; a later one overrides those before it.
 struct InitialConfig {
   enum class Motion { uniform, radial, twist, swing, bend };
   std::string name;
+  std::vector<int> regions;  // attributes of the mesh; none: all
   bool has_lower = false, has_upper = false, has_radius = false, has_point = false;
   std::array<double, 3> lower{}, upper{}, centre{}, point{};
   double radius = 0;                 // [m]
@@ -52,9 +53,10 @@ struct InitialConfig {
   std::array<double, 3> velocity{};  // [m/s]
   Motion motion = Motion::uniform;
   double rate = 0, length = 1;  // of the named motions: [m/s] or [1/s], [m]
-  void bind(Section& s);
-  /// In a cell around x with these corners.
-  bool holds(const Vec3& x, const std::vector<Vec3>& corners) const;
+  void bind(Section& s, const NamedMesh& mesh);
+  /// In a cell of this region around x with these corners.
+  bool holds(int region, const Vec3& x, const std::vector<Vec3>& corners) const;
+  bool fills(int region) const;  ///< all of it?
   Vec3 velocity_at(const Vec3& x) const;
 };
 
@@ -69,6 +71,8 @@ struct LagrangeConfig {
   std::shared_ptr<const ExactFlow> exact;
   std::shared_ptr<const ExactMotion> exact_motion;  // of solids
   void bind(Section& root, const NamedMesh& mesh);
+  /// Times at which a load or an activation has a kink [s].
+  std::vector<double> kinks() const;
 
  private:
   void bind_materials(Section& root, const NamedMesh& mesh);

@@ -1,6 +1,8 @@
 #include "fv/exact_flow.hpp"
+#include "fv/hugoniot.hpp"
 #include "fv/piston.hpp"
 #include "fv/radial_gas.hpp"
+#include "fv/riemann.hpp"
 #include "fv/sedov.hpp"
 #include "fv/simple_wave.hpp"
 
@@ -28,8 +30,16 @@ Flow read_kidder(Section s, int dimension) {
 
 void read_side(Section s, Riemann::Side& side) {
   s.read("density", side.density, {.unit = "kg/m^3", .range = positive, .doc = "of this side"});
-  s.read("pressure", side.pressure, {.unit = "Pa", .range = positive, .doc = "of this side"});
+  s.read("pressure", side.pressure, {.unit = "Pa", .range = any, .doc = "of this side"});
   s.read("velocity", side.velocity, {.unit = "m/s", .doc = "along x"});
+  s.read("gamma", side.gamma, {.range = above_one, .doc = "of this side (default: that of both)"});
+  s.read("covolume", side.covolume, {.unit = "m^3/kg", .range = non_negative, .doc = "of a Noble-Abel gas"});
+  s.read("stiffening", side.stiffening, {.unit = "Pa", .range = non_negative, .doc = "of a stiffened gas"});
+  if (s.describing()) return;
+  if (side.pressure + side.stiffening <= 0)
+    s.error("pressure", "is not above minus the stiffening", "give more pressure, or the stiffening of the fluid");
+  if (side.covolume * side.density >= 1)
+    s.error("covolume", "leaves the gas no room at this density", "take covolume < 1 / density");
 }
 
 Flow read_riemann(Section s) {
@@ -37,9 +47,10 @@ Flow read_riemann(Section s) {
   double position = 0.5, gamma = 1.4;
   s.read("position", position, {.unit = "m", .doc = "x of the plane between the two sides"});
   s.read("gamma", gamma, {.range = above_one, .doc = "of the perfect gas on both sides"});
+  left.gamma = right.gamma = gamma;
   read_side(s.section("left", "the state where x is less"), left);
   read_side(s.section("right", "the state where x is more"), right);
-  return std::make_shared<Riemann>(left, right, position, gamma);
+  return std::make_shared<Riemann>(left, right, position);
 }
 
 void read_gas(Section& s, double& density, double& pressure, double& gamma) {
@@ -94,6 +105,15 @@ Flow read_piston(Section s) {
   return std::make_shared<Piston>(setup);
 }
 
+Flow read_hugoniot(Section s) {
+  HugoniotShock::Setup setup;
+  s.read("density", setup.density, {.unit = "kg/m^3", .range = positive, .doc = "at rest"});
+  s.read("sound_speed", setup.sound_speed, {.unit = "m/s", .range = positive, .doc = "c0, at rest"});
+  s.read("slope", setup.slope, {.range = non_negative, .doc = "s of the shock speed over the particle speed"});
+  s.read("speed", setup.speed, {.unit = "m/s", .range = positive, .doc = "of the piston along x, from x = 0"});
+  return std::make_shared<HugoniotShock>(setup);
+}
+
 Flow read_simple_wave(Section s) {
   SimpleWave::Setup setup;
   read_gas(s, setup.density, setup.pressure, setup.gamma);
@@ -103,7 +123,7 @@ Flow read_simple_wave(Section s) {
   return std::make_shared<SimpleWave>(setup);
 }
 
-enum class Solution { none, kidder, riemann, noh, sedov, explosion, piston, simple_wave };
+enum class Solution { none, kidder, riemann, noh, sedov, explosion, piston, hugoniot, simple_wave };
 
 }  // namespace
 
@@ -117,6 +137,7 @@ Flow ExactFlow::read(Section s, int dimension) {
             {"sedov", Solution::sedov},
             {"explosion", Solution::explosion},
             {"piston", Solution::piston},
+            {"hugoniot", Solution::hugoniot},
             {"simple_wave", Solution::simple_wave}},
            {.doc = "a flow that is known: the start of the run and what its errors are against"});
   const bool all = s.describing();
@@ -128,12 +149,13 @@ Flow ExactFlow::read(Section s, int dimension) {
     return [=](Section from) { return read(from, dimension); };
   };
   take(Solution::kidder, "kidder", "isentropic compression of a shell", in_dimension(read_kidder));
-  take(Solution::riemann, "riemann", "a shock tube along x", read_riemann);
+  take(Solution::riemann, "riemann", "two states of fluids beside a plane across x", read_riemann);
   take(Solution::noh, "noh", "implosion onto the origin", in_dimension(read_noh));
   take(Solution::sedov, "sedov", "a blast at the origin", in_dimension(read_sedov));
   take(Solution::explosion, "explosion", "a ball of gas, against a run along the radius alone",
        in_dimension(read_explosion));
   take(Solution::piston, "piston", "a piston and the reflections of its shock", read_piston);
+  take(Solution::hugoniot, "hugoniot", "a piston's shock in a material whose shocks run with c0 + s u", read_hugoniot);
   take(Solution::simple_wave, "simple_wave", "a smooth wave along x until it breaks", read_simple_wave);
   return flow;
 }

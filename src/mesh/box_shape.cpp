@@ -19,6 +19,11 @@ void BoxShape::bind(Section& s) {
          {.unit = "m",
           .doc = "bends the planes of nodes across x: x grows by skew (1 - y / b) sin(pi x / a), a and b the edges of "
                  "the box (Saltzman's mesh)"});
+  s.read("ripple", ripple,
+         {.unit = "m",
+          .doc = "half a wave on the plane of nodes at ripple_at: x grows by ripple cos(pi y / b), b the edge of the "
+                 "box along y, linearly less towards both ends of the box"});
+  s.read("ripple_at", ripple_at, {.unit = "m", .range = non_negative, .doc = "where along x the ripple is largest"});
 }
 
 void BoxShape::apply(mfem::ParMesh& mesh) const {
@@ -26,7 +31,12 @@ void BoxShape::apply(mfem::ParMesh& mesh) const {
   mesh.GetBoundingBox(lower, upper);
   for (int v = 0; v < mesh.GetNV(); ++v) {
     double* x = mesh.GetVertex(v);
-    x[0] += skew * (1 - x[1] / upper(1)) * std::sin(std::numbers::pi * x[0] / upper(0));
+    const double along_x = x[0], end = upper(0);
+    x[0] += skew * (1 - x[1] / upper(1)) * std::sin(std::numbers::pi * along_x / end);
+    if (ripple != 0) {
+      const double part = along_x < ripple_at ? along_x / ripple_at : (end - along_x) / (end - ripple_at);
+      x[0] += ripple * part * std::cos(std::numbers::pi * x[1] / upper(1));
+    }
     if (inner_radius > 0) {
       const double radius = inner_radius + x[0], angle = x[1] / inner_radius;
       if (bend == Bend::sphere) {

@@ -15,8 +15,10 @@ struct BoxShape {
   double inner_radius = 0;         // [m] 0: straight
   Bend bend = Bend::cylinder;      // what it becomes a part of
   double skew = 0;                 // [m]
+  double ripple = 0;               // [m] amplitude
+  double ripple_at = 0;            // [m] along x
   void bind(Section& s);
-  /// Moves the nodes of a box that begins at 0. Skewed first, then bent, then moved. Collective.
+  /// Moves the nodes of a box that begins at 0. Skewed and rippled first, then bent, then moved. Collective.
   void apply(mfem::ParMesh& mesh) const;
 };
 

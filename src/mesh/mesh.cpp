@@ -18,7 +18,8 @@ namespace titin {
 namespace {
 
 constexpr int max_refinements = 8;
-constexpr double max_cells = 1e8;  // one rank holds the serial mesh while it is partitioned
+constexpr double same_layer = 1e-6;  // of a cell's length: what is printed with few digits
+constexpr double max_cells = 1e8;    // one rank holds the serial mesh while it is partitioned
 
 /// MFEM prints its errors before it throws them; ours are printed once, by rank 0.
 class Silence {
@@ -44,12 +45,11 @@ void name_the_rest(const mfem::Array<int>& attributes, const std::string& kind, 
 }
 
 /// Boundaries by MFEM's numbering.
-mfem::Mesh make_box(const MeshConfig& config, NamedMesh& named) {
+mfem::Mesh make_cells(const MeshConfig& config, NamedMesh& named) {
   using mfem::Element;
   const auto& edge = config.box;
   const auto& n = config.cells;
   const bool tensor = config.kind == BoxCells::tensor;
-  named.regions = {{"body", 1}};
   if (edge.size() == 2) {
     named.boundaries = {{"y-", 1}, {"x+", 2}, {"y+", 3}, {"x-", 4}};
     if (config.cuts != BoxCuts::same) return make_plane_triangles(n[0], n[1], edge[0], edge[1], config.cuts);
@@ -61,6 +61,24 @@ mfem::Mesh make_box(const MeshConfig& config, NamedMesh& named) {
                     : config.kind == BoxCells::simplices ? Element::TETRAHEDRON
                                                          : Element::WEDGE;
   return mfem::Mesh::MakeCartesian3D(n[0], n[1], n[2], type, edge[0], edge[1], edge[2]);
+}
+
+/// One region, or one between two interfaces each.
+mfem::Mesh make_box(const MeshConfig& config, NamedMesh& named) {
+  mfem::Mesh mesh = make_cells(config, named);
+  named.regions = {{"body", 1}};
+  if (config.interfaces.empty()) return mesh;
+  named.regions.clear();
+  for (std::size_t k = 0; k <= config.interfaces.size(); ++k)
+    named.regions[fmt::format("part {}", k + 1)] = static_cast<int>(k) + 1;
+  mfem::Vector centre;
+  for (int cell = 0; cell < mesh.GetNE(); ++cell) {
+    mesh.GetElementCenter(cell, centre);
+    const auto before = std::lower_bound(config.interfaces.begin(), config.interfaces.end(), centre(0));
+    mesh.SetAttribute(cell, static_cast<int>(before - config.interfaces.begin()) + 1);
+  }
+  mesh.SetAttributes();
+  return mesh;
 }
 
 void scale(mfem::Mesh& mesh, double factor) {
@@ -98,6 +116,26 @@ mfem::Mesh load(const MeshConfig& config, Section& section, NamedMesh& named) {
   return {};
 }
 
+/// Do the interfaces lie between layers of cells, one behind the other?
+bool has_fit_interfaces(const MeshConfig& config, Section& section) {
+  const double layer = config.box[0] / config.cells[0];
+  double before = 0;
+  for (double x : config.interfaces) {
+    if (!(x > before && x < config.box[0]))
+      section.error("interfaces", fmt::format("{:g} m does not lie beyond {:g} m and inside the box", x, before),
+                    "give increasing places between 0 and the first edge of mesh.box");
+    else if (std::abs(x / layer - std::round(x / layer)) > same_layer)
+      section.error("interfaces", fmt::format("{:g} m lies inside of cells, which are {:g} m long", x, layer),
+                    "take another place, or other mesh.cells");
+    else {
+      before = x;
+      continue;
+    }
+    return false;
+  }
+  return true;
+}
+
 /// Do edges and cells of a box fit together?
 bool is_a_box(const MeshConfig& config, Section& section) {
   if (config.box.size() < 2 || config.box.size() > 3)
@@ -116,7 +154,7 @@ bool is_a_box(const MeshConfig& config, Section& section) {
     section.error("cuts", "only triangles of a plane box can be cut in other ways",
                   "take kind = \"simplices\", or drop it");
   else
-    return true;
+    return has_fit_interfaces(config, section);
   return false;
 }
 
@@ -186,6 +224,10 @@ void MeshConfig::bind(Section& s) {
       "cuts", cuts, {{"same", BoxCuts::same}, {"alternating", BoxCuts::alternating}, {"crossed", BoxCuts::crossed}},
       {.doc = "of a plane box into triangles: all boxes along the same diagonal, along one and the other in turn, or "
               "each along both into four"});
+  s.read("interfaces", interfaces,
+         {.unit = "m",
+          .range = positive,
+          .doc = "planes across x that part the box into regions: \"part 1\", \"part 2\", ... instead of body"});
   s.read("file", file, {.doc = "Gmsh 2.2 mesh; its physical names name regions and boundaries"});
   s.read("unit", unit, {.unit = "m", .range = positive, .doc = "what a length of 1 in the file is"});
   s.read("thickness", thickness,

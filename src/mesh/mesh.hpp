@@ -20,10 +20,11 @@ struct MeshConfig {
   std::vector<int> cells;            // of the box; none: one in each direction
   BoxCells kind = BoxCells::tensor;  // of the box's cells
   BoxCuts cuts = BoxCuts::same;
-  std::string file;      // Gmsh 2.2
-  double unit = 1;       // length of 1 in the file [m]
-  double thickness = 1;  // of a plane body [m]
-  int refine = 0;        // uniform refinements after loading
+  std::vector<double> interfaces;  // planes across x between regions of the box [m]
+  std::string file;                // Gmsh 2.2
+  double unit = 1;                 // length of 1 in the file [m]
+  double thickness = 1;            // of a plane body [m]
+  int refine = 0;                  // uniform refinements after loading
   void bind(Section& s);
 };
 

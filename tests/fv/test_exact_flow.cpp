@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "flows_for_tests.hpp"
+#include "fv/riemann.hpp"
 
 namespace titin {
 namespace {

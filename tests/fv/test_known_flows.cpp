@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "flows_for_tests.hpp"
+#include "fv/hugoniot.hpp"
 #include "fv/piston.hpp"
 #include "fv/radial_gas.hpp"
+#include "fv/riemann.hpp"
 #include "fv/sedov.hpp"
 #include "fv/simple_wave.hpp"
+#include "materials/fluid.hpp"
 
 namespace titin {
 namespace {
@@ -41,6 +44,55 @@ TEST(KnownFlows, SedovKeepsMass) {
       mass += blast.at({r, 0, 0}, 0.7).density * std::pow(r, j - 1) * R / n;
     }
     EXPECT_NEAR(mass, std::pow(R, j) / j, 1e-4 * mass);
+  }
+}
+
+/// Of a side's fluid at a point of the flow [J/m^3].
+double energy_density(const Riemann::Side& s, const FlowPoint& q) {
+  const double e = (q.pressure + s.gamma * s.stiffening) * (1 - s.covolume * q.density) / ((s.gamma - 1) * q.density);
+  return q.density * (e + 0.5 * dot(q.velocity, q.velocity));
+}
+
+// What lies between two planes that no wave has reached changes by the fluxes through them alone.
+TEST(KnownFlows, RiemannProblemsOfTwoFluidsKeepMassMomentumAndEnergy) {
+  const Riemann::Side light{1, 2, 0.1, 5.0 / 3, 0.2, 0}, dense{0.5, 0.2, -0.3, 1.2, 0.4, 0},
+      stiff{0.8, -0.5, -1.5, 4.4, 0.3, 2}, rushing{0.8, -0.5, 1.5, 4.4, 0.3, 2};
+  const Riemann::Side pairs[][2] = {{light, dense}, {light, stiff}, {rushing, dense}};
+  for (const auto& [left, right] : pairs) {
+    const Riemann flow(left, right, 0.5);
+    constexpr double t = 0.1;
+    constexpr int n = 200000;
+    const double contact = 0.5 + flow.star_velocity() * t;
+    double mass = 0, momentum = 0, energy = 0;
+    for (int k = 0; k < n; ++k) {
+      const double x = (k + 0.5) * 2 / n - 0.5;
+      const FlowPoint q = flow.at({x, 0, 0}, t), start = flow.at({x, 0, 0}, 0);
+      const Riemann::Side &now = x < contact ? left : right, &before = x < 0.5 ? left : right;
+      mass += (q.density - start.density) * 2 / n;
+      momentum += (q.density * q.velocity[0] - start.density * start.velocity[0]) * 2 / n;
+      energy += (energy_density(now, q) - energy_density(before, start)) * 2 / n;
+    }
+    const auto flux = [](const Riemann::Side& s) {
+      const FlowPoint q{s.density, s.pressure, {s.velocity, 0, 0}};
+      return std::array{s.density * s.velocity, s.density * s.velocity * s.velocity + s.pressure,
+                        (energy_density(s, q) + s.pressure) * s.velocity};
+    };
+    const auto in = flux(left), out = flux(right);
+    EXPECT_NEAR(mass, t * (in[0] - out[0]), 3e-5);
+    EXPECT_NEAR(momentum, t * (in[1] - out[1]), 3e-5);
+    EXPECT_NEAR(energy, t * (in[2] - out[2]), 2e-4);
+  }
+}
+
+// Behind the shock the law itself has the pressure of the jump: e = p (1 / rho_0 - 1 / rho) / 2.
+TEST(KnownFlows, MieGrueneisenMeetsItsHugoniot) {
+  const HugoniotShock shock({8930, 3940, 1.489, 1000});
+  const FlowPoint behind = shock.at({}, 1e-6);
+  EXPECT_NEAR(behind.pressure, 48.48097e9, 1e4);
+  for (double gruneisen : {0.5, 2.0}) {
+    const MieGruneisen copper{8930, 3940, 1.489, gruneisen};
+    const double e = 0.5 * behind.pressure * (1 / 8930.0 - 1 / behind.density);
+    EXPECT_NEAR(copper.pressure(behind.density, e), behind.pressure, 1e-9 * behind.pressure);
   }
 }
 

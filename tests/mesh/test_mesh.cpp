@@ -73,6 +73,19 @@ TEST(Box, NamesItsSidesAndItsBody) {
   for (const char* name : {"z-", "z+"}) EXPECT_NEAR(area(box, name), 6e-4, 1e-16) << name;
 }
 
+TEST(Box, IsPartedIntoRegionsAcrossX) {
+  for (const char* kind : {"tensor", "simplices", "wedges"}) {
+    const NamedMesh box = read(std::string("box = \"30, 20, 10 mm\"\ncells = [3, 2, 2]\ninterfaces = \"10, 20 mm\"\n") +
+                               "kind = \"" + kind + "\"\n");
+    EXPECT_EQ(names_of(box.regions), "part 1, part 2, part 3");
+    for (const char* name : {"part 1", "part 2", "part 3"}) EXPECT_NEAR(volume(box, name), 2e-6, 1e-18) << name;
+  }
+  EXPECT_NE(error("box = \"30, 20 mm\"\ncells = [3, 2]\ninterfaces = \"12 mm\"\n").find("lies inside of cells"),
+            std::string::npos);
+  EXPECT_NE(error("box = \"30, 20 mm\"\ncells = [3, 2]\ninterfaces = \"20, 10 mm\"\n").find("does not lie beyond"),
+            std::string::npos);
+}
+
 TEST(Gmsh, NamesRegionsAndBoundariesAndNumbersTheRest) {
   const NamedMesh named = read("file = \"" + two_bricks + "\"\n");
   EXPECT_EQ(named.mesh->GetGlobalNE(), 2);

@@ -6,6 +6,8 @@
 
     [test]
     set = ["mesh.cells=[2, 2, 2]"]   # overrides that make it small
+    exit = 2                         # exit code, 0 when not said
+    reason = "(?P<x>...) at .* s"    # regular expression that `reason` of run.json must match, of a run that fails
     ranks = [1, 2]                   # the first writes the history that the others must repeat
     rank_tolerance = 1e-6            # how closely (see "scale" below)
     rank_skip = ["force_x [N]"]      # columns that vanish, by symmetry say, and hold round-off alone
@@ -14,6 +16,13 @@
     "volume [m^3]" = [3.0e-6, 1e-9]  # value, tolerance
     newton.max_per_step = { max = 8 }
     status = "finished"
+
+    [test.slope]                     # of the line through a sum of columns between two times
+    columns = { "marker_a_ux [m]" = 0.5, "marker_b_ux [m]" = -0.5 }   # with these factors
+    from = 0.9                       # [s]
+    to = 1.5
+    value = 1.4e-2                   # in SI units
+    relative = 0.1
 
     [test.reference]                 # every row of another code's history up to the end of this run
     file = "tests/data/..."          # from the top folder; columns as in history.csv
@@ -33,6 +42,8 @@ import subprocess
 import sys
 import time
 import tomllib
+
+from vtu_numbers import saved_numbers
 
 TOP = pathlib.Path(__file__).resolve().parent.parent.parent
 MPI_ENVIRONMENT = dict(re.findall(r"\b(OMPI_\w+)=(\S+)", (TOP / "scripts" / "mpi_environment").read_text()))
@@ -166,6 +177,32 @@ def compare(checks, label, mine, other, columns, tolerance_of):
         checks.near(f"{label}: {column}", *worst, tolerance_of(column))
 
 
+def check_reason(checks, pattern, report):
+    reason = report.get("reason", "")
+    checks.add("reason", reason, pattern, None, None, re.search(pattern, reason) is not None)
+
+
+def check_numbers(checks, history, folder):
+    """Nothing that is no number is written, however a run ends; fields are looked through when it fails."""
+    wrong = [name for name, column in history.columns.items() if not all(map(math.isfinite, column))]
+    checks.add("history: columns with no numbers", ", ".join(wrong) or "none", "none", None, None, not wrong)
+    if folder:
+        saved, bad = saved_numbers(folder)
+        checks.add("fields: values that are no numbers", bad, f"0 of {saved}", None, None, saved > 0 and bad == 0)
+
+
+def check_slope(checks, slope, history):
+    """Least squares; the error of the slope is relative."""
+    rows = [k for k, t in enumerate(history.time) if slope["from"] <= t <= slope["to"]]
+    if len(rows) < 3:
+        return checks.add("slope: rows", len(rows), ">= 3", None, None, False)
+    t = [history.time[k] for k in rows]
+    y = [sum(factor * history.columns[name][k] for name, factor in slope["columns"].items()) for k in rows]
+    t_mean, y_mean = sum(t) / len(t), sum(y) / len(y)
+    value = sum((a - t_mean) * (b - y_mean) for a, b in zip(t, y)) / sum((a - t_mean) ** 2 for a in t)
+    checks.near("slope", value, slope["value"], slope["relative"] * abs(slope["value"]))
+
+
 def check_reference(checks, reference, history):
     other = History(TOP / reference["file"])
     rows = sum(t <= history.time[-1] + SAME_TIME for t in other.time)
@@ -214,6 +251,11 @@ def main():
         history = History(folder / "history.csv")
         report = json.loads((folder / "run.json").read_text())
         check_expected(checks, test.get("expect", {}), history, report)
+        check_numbers(checks, history, folder / "fields" if code else None)
+        if "reason" in test:
+            check_reason(checks, test["reason"], report)
+        if "slope" in test:
+            check_slope(checks, test["slope"], history)
         if "reference" in test:
             check_reference(checks, test["reference"], history)
         first = test.get("ranks", [1])[0]

@@ -1,0 +1,31 @@
+// An eighth of a ball of radius 1 about the origin, of tetrahedra.
+// gmsh -3 -format msh22 -setnumber size 0.15 ball_octant.geo -o ball_octant.msh
+DefineConstant[size = {0.15, Name "Size of cells"}];
+Mesh.MeshSizeMin = size;
+Mesh.MeshSizeMax = size;
+Mesh.Optimize = 1;
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {0, 1, 0};
+Point(4) = {0, 0, 1};
+Line(1) = {1, 2};
+Line(2) = {1, 3};
+Line(3) = {1, 4};
+Circle(4) = {2, 1, 3};
+Circle(5) = {3, 1, 4};
+Circle(6) = {4, 1, 2};
+Curve Loop(1) = {1, 4, -2};
+Plane Surface(1) = {1};
+Curve Loop(2) = {2, 5, -3};
+Plane Surface(2) = {2};
+Curve Loop(3) = {3, 6, -1};
+Plane Surface(3) = {3};
+Curve Loop(4) = {4, 5, 6};
+Surface(4) = {4};
+Surface Loop(1) = {1, 2, 3, 4};
+Volume(1) = {1};
+Physical Volume("gas") = {1};
+Physical Surface("z-") = {1};
+Physical Surface("x-") = {2};
+Physical Surface("y-") = {3};
+Physical Surface("outside") = {4};
