@@ -13,6 +13,9 @@ void set_boomeramg(PC pc, const std::string& prefix) {
   for (const auto& [name, value] : {std::pair{"coarsen_type", "HMIS"},
                                     {"interp_type", "ext+i"},
                                     {"P_max", "4"},
+                                    {"agg_nl", "1"},
+                                    {"relax_type_down", "SOR/Jacobi"},
+                                    {"relax_type_up", "backward-SOR/Jacobi"},
                                     {"strong_threshold", "0.5"},
                                     {"relax_type_all", "symmetric-SOR/Jacobi"}})
     set_default_option(prefix + "pc_hypre_boomeramg_" + name, value);

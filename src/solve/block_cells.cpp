@@ -76,19 +76,6 @@ void CellBlocks::set_matrix(int cell, const CellTangent& tangent, const std::vec
   }
 }
 
-void CellBlocks::multiply(const std::vector<int>& index, const float* x, float* y) const {
-  const int n = layout_.size();
-  std::vector<FloatLanes> in(n), out(n);
-  for (int batch = 0; batch < batches(); ++batch) {
-    const int* dofs = &index[std::size_t(batch) * n * float_lanes];
-    float* values = reinterpret_cast<float*>(in.data());
-    for (int c = 0; c < n * float_lanes; ++c) values[c] = x[dofs[c]];
-    multiply_packed(n, matrices(batch), in.data(), out.data());
-    values = reinterpret_cast<float*>(out.data());
-    for (int c = 0; c < n * float_lanes; ++c) y[dofs[c]] += values[c];
-  }
-}
-
 std::size_t CellBlocks::bytes() const {
   const auto size = [](const auto&... list) { return ((list.capacity() * sizeof(list[0])) + ...); };
   return size(A_, B_, small_, scale_, inertia_, layout_.dofs, layout_.corner, layout_.mode_size);

@@ -60,9 +60,6 @@ class CellBlocks {
   /// A_g of eight cells, packed; rows and columns of constrained dofs are zero.
   const FloatLanes* matrices(int batch) const { return &A_[batch * packed_size(layout_.size())]; }
 
-  /// y = A_g x, over this rank's cells, of dofs numbered by `index` [batch][dof][lane].
-  void multiply(const std::vector<int>& index, const float* x, float* y) const;
-
   const double* B(int cell) const { return &B_[std::size_t(cell) * layout_.modes * layout_.size()]; }
   const double* stiffness(int cell) const { return &small_[(4 * cell + 0) * square()]; }     ///< S'
   const double* compliance(int cell) const { return &small_[(4 * cell + 1) * square()]; }    ///< S'^-1

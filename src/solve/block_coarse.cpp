@@ -11,15 +11,18 @@ namespace titin {
 
 namespace {
 
-/// Of conjugate gradients; more save no more iterations around them. Stretched cells want more.
-constexpr int few_steps = 2, more_steps = 6;
+/// Of conjugate gradients, relative: less saves no iterations around them that would be worth it. Stretched cells want
+/// the coarse problem solved better.
+constexpr double tolerance_compact = 0.3, tolerance_elongated = 0.1;
 constexpr double elongated = 2.5;
+constexpr int most_steps = 12;
 constexpr double at_corner = 1 - 1e-9;  // the hat of a corner, there
 
 }  // namespace
 
 CoarseLevel::CoarseLevel(const CellBlocks& blocks, const LocalDofs& dofs) : blocks_(blocks), owned_(dofs.owned()) {
   number();
+  set_weights();
   create_prolongation(dofs);
   create_matrix();
   create_solver();
@@ -45,6 +48,19 @@ void CoarseLevel::number() {
         const PetscInt dof = components * layout.corner[std::size_t(cell) * layout.corners + v] + i;
         dofs_.push_back(fixed ? -1 : dof);
       }
+}
+
+/// What P is in every cell.
+void CoarseLevel::set_weights() {
+  const CellLayout& layout = blocks_.layout();
+  for (int c = 0; c < layout.size(); ++c)
+    for (int v = 0; v < layout.corners; ++v) {
+      const auto value = static_cast<float>(layout.hat[(c % layout.nodes) * layout.corners + v]);
+      if (value != 0) weights_.push_back({c, (c / layout.nodes) * layout.corners + v, value});
+    }
+  const std::size_t m = layout.components * layout.corners;
+  half_.resize(layout.size() * m);
+  coarse_.resize(m * m);
 }
 
 void CoarseLevel::create_prolongation(const LocalDofs& dofs) {
@@ -90,7 +106,9 @@ void CoarseLevel::create_matrix() {
   };
   Mat pattern = create(MATPREALLOCATOR);
   check(MatSetUp(pattern));
-  assemble(pattern);
+  const std::vector<double> zeros(std::size_t(layout.components * layout.corners) * layout.components * layout.corners);
+  for (int cell = 0; cell < layout.cells; ++cell) add_cell(cell, zeros, pattern);
+  finish(pattern);
   A_ = create(MATAIJ);
   check(MatPreallocatorPreallocate(pattern, PETSC_TRUE, A_));
   check(MatDestroy(&pattern));
@@ -128,10 +146,9 @@ void CoarseLevel::create_solver() {
     check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   } else {
     check(KSPSetType(solver_, KSPCG));
-    check(KSPSetNormType(solver_, KSP_NORM_NONE));
-    check(KSPSetConvergenceTest(solver_, KSPConvergedSkip, nullptr, nullptr));
-    check(KSPSetTolerances(solver_, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
-                           max(blocks_.layout().elongation) > elongated ? more_steps : few_steps));
+    check(KSPSetNormType(solver_, KSP_NORM_NATURAL));
+    const double tolerance = max(blocks_.layout().elongation) > elongated ? tolerance_elongated : tolerance_compact;
+    check(KSPSetTolerances(solver_, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, most_steps));
     set_boomeramg(pc, "coarse_");
   }
   check_options(KSPSetFromOptions(solver_));
@@ -140,13 +157,14 @@ void CoarseLevel::create_solver() {
 void CoarseLevel::update() {
   Timers::Scope timer("coarse level");
   check(MatZeroEntries(A_));
-  assemble(A_);
+  for (int batch = 0; batch < blocks_.batches(); ++batch) add_batch(batch, A_);
+  finish(A_);
   check(KSPSetOperators(solver_, A_, A_));
   check(KSPSetUp(solver_));
 }
 
-void CoarseLevel::assemble(Mat A) {
-  for (int batch = 0; batch < blocks_.batches(); ++batch) add_batch(batch, A);
+/// Ones for the constrained, then the exchange.
+void CoarseLevel::finish(Mat A) const {
   const CellLayout& layout = blocks_.layout();
   const int n = layout.components * layout.corners;
   std::vector<char> free(layout.components * layout.owned_corners, 0);
@@ -165,28 +183,25 @@ void CoarseLevel::assemble(Mat A) {
 /// Adds P^T A_g P of eight cells.
 void CoarseLevel::add_batch(int batch, Mat A) {
   const CellLayout& layout = blocks_.layout();
-  const int n = layout.size(), corners = layout.corners, m = layout.components * corners;
+  const int n = layout.size(), m = layout.components * layout.corners;
   const FloatLanes* fine = blocks_.matrices(batch);
-  std::vector<FloatLanes> half(std::size_t(n) * m), coarse(std::size_t(m) * m);  // A_g P; P^T A_g P
+  std::fill(half_.begin(), half_.end(), FloatLanes{});
+  std::fill(coarse_.begin(), coarse_.end(), FloatLanes{});
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int v = 0; v < corners; ++v) {
-        const auto weight = static_cast<float>(layout.hat[(j % layout.nodes) * corners + v]);
-        if (weight != 0) half[i * m + (j / layout.nodes) * corners + v] += weight * fine[packed_index(i, j)];
-      }
-  for (int i = 0; i < n; ++i)
-    for (int v = 0; v < corners; ++v) {
-      const auto weight = static_cast<float>(layout.hat[(i % layout.nodes) * corners + v]);
-      const int row = (i / layout.nodes) * corners + v;
-      if (weight == 0) continue;
-      for (int k = 0; k < m; ++k) coarse[row * m + k] += weight * half[i * m + k];
-    }
+    for (const Weight& w : weights_) half_[i * m + w.to] += w.value * fine[packed_index(i, w.from)];
+  for (const Weight& w : weights_)
+    for (int k = 0; k < m; ++k) coarse_[w.to * m + k] += w.value * half_[w.from * m + k];
   std::vector<double> values(m * m);
   for (int lane = 0; lane < float_lanes && batch * float_lanes + lane < layout.cells; ++lane) {
-    for (int e = 0; e < m * m; ++e) values[e] = coarse[e][lane];
-    const PetscInt* dofs = &dofs_[std::size_t(batch * float_lanes + lane) * m];
-    check(MatSetValues(A, m, dofs, m, dofs, values.data(), ADD_VALUES));
+    for (int e = 0; e < m * m; ++e) values[e] = coarse_[e][lane];
+    add_cell(batch * float_lanes + lane, values, A);
   }
+}
+
+void CoarseLevel::add_cell(int cell, const std::vector<double>& values, Mat A) const {
+  const int m = blocks_.layout().components * blocks_.layout().corners;
+  const PetscInt* dofs = &dofs_[std::size_t(cell) * m];
+  check(MatSetValues(A, m, dofs, m, dofs, values.data(), ADD_VALUES));
 }
 
 bool CoarseLevel::correct(const float* r, float* x) {
@@ -205,7 +220,8 @@ bool CoarseLevel::correct(const float* r, float* x) {
   KSPConvergedReason reason;
   check(KSPGetConvergedReason(solver_, &reason));
   // an indefinite coarse problem stops conjugate gradients early, with a correction that is still of use
-  return reason >= 0 || reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC;
+  return reason >= 0 || reason == KSP_DIVERGED_ITS || reason == KSP_DIVERGED_INDEFINITE_MAT ||
+         reason == KSP_DIVERGED_INDEFINITE_PC;
 }
 
 }  // namespace titin

@@ -27,13 +27,23 @@ class CoarseLevel {
   void create_matrix();
   void attach_rigid_motions();
   void create_solver();
-  void assemble(Mat A);
+  void set_weights();
   void add_batch(int batch, Mat A);
+  void add_cell(int cell, const std::vector<double>& values, Mat A) const;
+  void finish(Mat A) const;
+
+  /// Of a cell's dof in one of its coarse dofs.
+  struct Weight {
+    int from, to;
+    float value;
+  };
 
   const CellBlocks& blocks_;
   int owned_;
   PetscInt size_ = 0;
-  std::vector<PetscInt> dofs_;  // [cell][component][corner], -1 where constrained
+  std::vector<Weight> weights_;
+  std::vector<FloatLanes> half_, coarse_;  // A_g P and P^T A_g P of eight cells
+  std::vector<PetscInt> dofs_;             // [cell][component][corner], -1 where constrained
   Mat P_ = nullptr, A_ = nullptr;
   KSP solver_ = nullptr;
   Vec fine_ = nullptr, right_ = nullptr, left_ = nullptr;

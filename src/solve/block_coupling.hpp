@@ -1,7 +1,7 @@
 /// B of the block solver, cell by cell: what displacements at local dofs do to a cell's pressure modes, and back.
 #pragma once
 
-#include <algorithm>
+#include <vector>
 
 #include "solve/block_multigrid.hpp"
 
@@ -9,32 +9,18 @@ namespace titin {
 
 class Coupling {
  public:
-  Coupling(const CellBlocks& blocks, const Multigrid& multigrid) : blocks_(blocks), multigrid_(multigrid) {}
+  Coupling(const CellBlocks& blocks, const Multigrid& multigrid);
 
   /// t = B x of a cell; x at local dofs.
-  void divergence(int cell, const double* x, double* t) const {
-    const int n = blocks_.layout().size(), m = blocks_.layout().modes;
-    const double* B = blocks_.B(cell);
-    std::fill_n(t, m, 0.0);
-    for (int c = 0; c < n; ++c) {
-      const double value = x[multigrid_.place(cell, c)];
-      for (int l = 0; l < m; ++l) t[l] += B[l * n + c] * value;
-    }
-  }
+  void divergence(int cell, const double* x, double* t) const;
   /// y += B^T p of a cell.
-  void add_gradient(int cell, const double* p, double* y) const {
-    const int n = blocks_.layout().size(), m = blocks_.layout().modes;
-    const double* B = blocks_.B(cell);
-    for (int c = 0; c < n; ++c) {
-      double sum = 0;
-      for (int l = 0; l < m; ++l) sum += B[l * n + c] * p[l];
-      y[multigrid_.place(cell, c)] += sum;
-    }
-  }
+  void add_gradient(int cell, const double* p, double* y) const;
+  std::size_t bytes() const { return places_.capacity() * sizeof(int); }
 
  private:
   const CellBlocks& blocks_;
-  const Multigrid& multigrid_;
+  std::vector<int> places_;             // [cell][dof]: local dofs
+  mutable std::vector<double> values_;  // of a cell's dofs
 };
 
 }  // namespace titin

@@ -1,5 +1,5 @@
 /// Eight symmetric matrices of one size at a time, one in each lane of a vector register: the dense work of the
-/// block solver (cell matrices, patch inverses) then streams through memory once, in float, at half the entries.
+/// block solver (cell matrices, patch inverses) on the way to what it multiplies with (block_matrices.hpp).
 ///
 /// Layout: entry (i, j), j <= i, of all eight is one FloatLanes at i (i + 1) / 2 + j.
 #pragma once
@@ -14,9 +14,6 @@ constexpr int float_lanes = 8;
 
 constexpr std::size_t packed_size(int n) { return std::size_t(n) * (n + 1) / 2; }
 constexpr std::size_t packed_index(int i, int j) { return i >= j ? packed_size(i) + j : packed_size(j) + i; }
-
-/// y = A x: A packed, x and y [n].
-void multiply_packed(int n, const FloatLanes* A, const FloatLanes* x, FloatLanes* y);
 
 /// A <- A^-1, by sweeps over all pivots (Goodnight 1979). Without exchanges, which positive definite matrices do not
 /// need. Where a pivot has fallen below a small part of its first value (a matrix that is not positive definite, or

@@ -10,9 +10,14 @@ namespace titin {
 
 namespace {
 
-constexpr int steps = 7;
+constexpr int steps = 8;
 constexpr double margin = 1.05;  // of the largest eigenvalue over what a few steps of the power method find of it
 constexpr int first_power_steps = 12, power_steps = 3;  // the vector of the last time is a good start
+
+/// A bulk modulus in the matrices themselves, a thousand times what else is there, leaves rounded ones too little.
+BlockMatrices::Entries entries(const CellBlocks& blocks) {
+  return blocks.has_pressure() ? BlockMatrices::Entries::rounded : BlockMatrices::Entries::floats;
+}
 
 std::vector<PetscInt> touched(const CellHalo& halo) {
   std::vector<PetscInt> all;
@@ -27,7 +32,8 @@ Multigrid::Multigrid(const CellBlocks& blocks)
     : blocks_(blocks),
       halo_(blocks),
       dofs_(blocks.layout().owned_dofs, touched(halo_)),
-      patches_(halo_, dofs_),
+      cells_(entries(blocks)),
+      patches_(halo_, dofs_, entries(blocks)),
       coarse_(blocks, dofs_),
       index_(std::size_t(blocks.batches()) * blocks.layout().size() * float_lanes, dofs_.zero()),
       fixed_(dofs_.owned(), 1) {
@@ -39,6 +45,7 @@ Multigrid::Multigrid(const CellBlocks& blocks)
       index_[(std::size_t(cell / float_lanes) * n + c) * float_lanes + cell % float_lanes] = dof;
       if (dof < dofs_.owned()) fixed_[dof] = 0;
     }
+  for (int batch = 0; batch < blocks.batches(); ++batch) cells_.add(n);
   for (Vector* v : {&x_, &r_, &z_, &d_, &product_}) v->assign(dofs_.size(), 0.0f);
 }
 
@@ -47,6 +54,7 @@ void Multigrid::update() {
     Timers::Scope timer("patches");
     halo_.update();
     patches_.update();
+    for (int batch = 0; batch < blocks_.batches(); ++batch) cells_.set(batch, blocks_.matrices(batch));
   }
   coarse_.update();
   estimate_spectrum();
@@ -60,11 +68,25 @@ void Multigrid::precondition(Vector& r, Vector& z) const {
   dofs_.add(z.data());
 }
 
+/// y += A_g x, over this rank's cells.
+void Multigrid::add_product(const Vector& x, Vector& y) const {
+  const int n = blocks_.layout().size();
+  std::vector<FloatLanes> in(n), out(n);
+  for (int batch = 0; batch < blocks_.batches(); ++batch) {
+    const int* dofs = &index_[std::size_t(batch) * n * float_lanes];
+    float* values = reinterpret_cast<float*>(in.data());
+    for (int c = 0; c < n * float_lanes; ++c) values[c] = x[dofs[c]];
+    cells_.multiply(batch, in.data(), out.data());
+    values = reinterpret_cast<float*>(out.data());
+    for (int c = 0; c < n * float_lanes; ++c) y[dofs[c]] += values[c];
+  }
+}
+
 /// r -= A_g x. Ghosts of x are fetched.
 void Multigrid::subtract_product(Vector& x, Vector& r) {
   std::fill(product_.begin(), product_.end(), 0.0f);
   dofs_.fetch(x.data());
-  blocks_.multiply(index_, x.data(), product_.data());
+  add_product(x, product_);
   dofs_.add(product_.data());
   for (int i = 0; i < dofs_.owned(); ++i) r[i] -= product_[i];
 }
@@ -137,7 +159,8 @@ std::size_t Multigrid::bytes() const {
   const std::size_t vectors =
       (x_.capacity() + r_.capacity() + z_.capacity() + d_.capacity() + product_.capacity() + eigenvector_.capacity()) *
       sizeof(float);
-  return halo_.bytes() + patches_.bytes() + vectors + index_.capacity() * sizeof(int) + fixed_.capacity();
+  return halo_.bytes() + cells_.bytes() + patches_.bytes() + vectors + index_.capacity() * sizeof(int) +
+         fixed_.capacity();
 }
 
 }  // namespace titin

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "solve/block_coarse.hpp"
+#include "solve/block_matrices.hpp"
 #include "solve/block_patches.hpp"
 
 namespace titin {
@@ -30,12 +31,14 @@ class Multigrid {
   using Vector = std::vector<float>;
   void smooth(Vector& x, Vector& r);
   void precondition(Vector& r, Vector& z) const;
+  void add_product(const Vector& x, Vector& y) const;
   void subtract_product(Vector& x, Vector& r);
   void estimate_spectrum();
 
   const CellBlocks& blocks_;
   CellHalo halo_;
   LocalDofs dofs_;
+  BlockMatrices cells_;  // A_g
   VertexPatches patches_;
   CoarseLevel coarse_;
   std::vector<int> index_;   // [batch][dof][lane]: places of the cells' dofs

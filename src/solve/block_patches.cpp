@@ -15,13 +15,14 @@ struct VertexPatches::Star {
   std::vector<CellPart> parts;
 };
 
-VertexPatches::VertexPatches(const CellHalo& halo, const LocalDofs& dofs) : halo_(halo) {
+VertexPatches::VertexPatches(const CellHalo& halo, const LocalDofs& dofs, BlockMatrices::Entries entries)
+    : halo_(halo), inverses_(entries) {
   std::vector<Star> all = stars(dofs);
   std::stable_sort(all.begin(), all.end(), [](const Star& a, const Star& b) { return a.dofs.size() > b.dofs.size(); });
   while (!all.empty() && all.back().dofs.empty()) all.pop_back();  // all constrained
   patches_ = all.size();
   for (std::size_t first = 0; first < all.size(); first += float_lanes) add_batch(all, first, dofs.zero());
-  inverses_.resize(batches_.empty() ? 0 : batches_.back().matrix + packed_size(batches_.back().size));
+  for (const Batch& batch : batches_) inverses_.add(batch.size);
 }
 
 std::vector<VertexPatches::Star> VertexPatches::stars(const LocalDofs& dofs) const {
@@ -53,7 +54,6 @@ void VertexPatches::add_batch(const std::vector<Star>& all, std::size_t first, i
   Batch batch;
   batch.size = static_cast<int>(all[first].dofs.size());
   largest_ = std::max(largest_, batch.size);
-  batch.matrix = batches_.empty() ? 0 : batches_.back().matrix + packed_size(batches_.back().size);
   batch.dofs = dofs_.size();
   batch.first_part = parts_.size();
   dofs_.resize(dofs_.size() + std::size_t(batch.size) * float_lanes, zero);
@@ -76,14 +76,15 @@ void VertexPatches::add_batch(const std::vector<Star>& all, std::size_t first, i
 }
 
 void VertexPatches::update() {
-  for (const Batch& batch : batches_) {
-    assemble(batch);
-    invert_packed(batch.size, &inverses_[batch.matrix]);
+  std::vector<FloatLanes> A(packed_size(largest_));
+  for (std::size_t number = 0; number < batches_.size(); ++number) {
+    assemble(batches_[number], A.data());
+    invert_packed(batches_[number].size, A.data());
+    inverses_.set(number, A.data());
   }
 }
 
-void VertexPatches::assemble(const Batch& batch) {
-  FloatLanes* A = &inverses_[batch.matrix];
+void VertexPatches::assemble(const Batch& batch, FloatLanes* A) const {
   std::fill_n(A, packed_size(batch.size), FloatLanes{});
   for (int lane = 0; lane < float_lanes; ++lane)  // unit rows fill up smaller patches
     for (int i = batch.sizes[lane]; i < batch.size; ++i) A[packed_index(i, i)][lane] = 1;
@@ -100,11 +101,12 @@ void VertexPatches::assemble(const Batch& batch) {
 
 void VertexPatches::apply(const float* r, float* z) const {
   std::vector<FloatLanes> in(largest_), out(largest_);
-  for (const Batch& batch : batches_) {
+  for (std::size_t number = 0; number < batches_.size(); ++number) {
+    const Batch& batch = batches_[number];
     const int* dofs = &dofs_[batch.dofs];
     float* values = reinterpret_cast<float*>(in.data());
     for (int c = 0; c < batch.size * float_lanes; ++c) values[c] = r[dofs[c]];
-    multiply_packed(batch.size, &inverses_[batch.matrix], in.data(), out.data());
+    inverses_.multiply(number, in.data(), out.data());
     values = reinterpret_cast<float*>(out.data());
     for (int c = 0; c < batch.size * float_lanes; ++c) z[dofs[c]] += values[c];
   }
@@ -112,7 +114,7 @@ void VertexPatches::apply(const float* r, float* z) const {
 
 std::size_t VertexPatches::bytes() const {
   const auto size = [](const auto&... list) { return ((list.capacity() * sizeof(list[0])) + ...); };
-  return size(batches_, parts_, pairs_, dofs_, inverses_);
+  return size(batches_, parts_, pairs_, dofs_) + inverses_.bytes();
 }
 
 }  // namespace titin

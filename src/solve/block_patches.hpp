@@ -2,20 +2,21 @@
 /// Such stars hold the local motions without divergence, which point smoothers damp badly as gamma or the bulk modulus
 /// grows (Schoeberl 1999; Arnold, Falk, Winther 2000).
 ///
-/// The dense inverses are kept in float, eight patches at a time.
+/// The dense inverses are made in float, eight patches at a time.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "solve/block_halo.hpp"
+#include "solve/block_matrices.hpp"
 
 namespace titin {
 
 class VertexPatches {
  public:
   /// Patches of this rank's vertices; `dofs` knows what the halo's cells touch.
-  VertexPatches(const CellHalo& halo, const LocalDofs& dofs);
+  VertexPatches(const CellHalo& halo, const LocalDofs& dofs, BlockMatrices::Entries entries);
 
   /// Sums the cells' matrices and inverts; CellHalo::update comes before.
   void update();
@@ -36,14 +37,14 @@ class VertexPatches {
   };
   struct Batch {
     int size;                          // dofs of the largest patch
-    std::size_t matrix, dofs;          // where its inverses and its dofs [size][lane] begin
+    std::size_t dofs;                  // where its dofs [size][lane] begin
     std::size_t first_part, end_part;  // of parts_
     std::vector<int> sizes;            // [lane]
   };
   struct Star;
   std::vector<Star> stars(const LocalDofs& dofs) const;
   void add_batch(const std::vector<Star>& stars, std::size_t first, int zero);
-  void assemble(const Batch& batch);
+  void assemble(const Batch& batch, FloatLanes* A) const;
 
   const CellHalo& halo_;
   std::size_t patches_ = 0;
@@ -52,7 +53,7 @@ class VertexPatches {
   std::vector<Part> parts_;
   std::vector<Pair> pairs_;
   std::vector<int> dofs_;
-  std::vector<FloatLanes> inverses_;
+  BlockMatrices inverses_;
 };
 
 }  // namespace titin

@@ -19,8 +19,8 @@ constexpr int steps = 3;            // of conjugate gradients
 
 }  // namespace
 
-SchurInverse::SchurInverse(const CellBlocks& blocks, const Multigrid& multigrid)
-    : blocks_(blocks), multigrid_(multigrid), coupling_(blocks, multigrid) {}
+SchurInverse::SchurInverse(const CellBlocks& blocks, const Multigrid& multigrid, const Coupling& coupling)
+    : blocks_(blocks), multigrid_(multigrid), coupling_(coupling) {}
 
 SchurInverse::~SchurInverse() { destroy_laplacian(); }
 

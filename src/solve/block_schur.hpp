@@ -15,7 +15,7 @@ namespace titin {
 
 class SchurInverse {
  public:
-  SchurInverse(const CellBlocks& blocks, const Multigrid& multigrid);
+  SchurInverse(const CellBlocks& blocks, const Multigrid& multigrid, const Coupling& coupling);
   ~SchurInverse();
   SchurInverse(const SchurInverse&) = delete;
 
@@ -35,7 +35,7 @@ class SchurInverse {
 
   const CellBlocks& blocks_;
   const Multigrid& multigrid_;
-  const Coupling coupling_;
+  const Coupling& coupling_;
   std::vector<double> mass_;            // of which the Laplacian is
   std::vector<double> forces_;          // local dofs
   std::vector<double> slopes_inverse_;  // [cell][mode but the first][the same]

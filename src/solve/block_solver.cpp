@@ -82,7 +82,7 @@ void BlockSolver::update() {
   if (!multigrid_) {
     multigrid_ = std::make_unique<Multigrid>(blocks_);
     coupling_ = std::make_unique<Coupling>(blocks_, *multigrid_);
-    schur_ = std::make_unique<SchurInverse>(blocks_, *multigrid_);
+    schur_ = std::make_unique<SchurInverse>(blocks_, *multigrid_, *coupling_);
     local_.assign(multigrid_->dofs().size(), 0.0);
     forces_.assign(multigrid_->dofs().size(), 0.0);
   }
