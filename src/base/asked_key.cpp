@@ -80,7 +80,8 @@ bool AskedKey::can_be_said(const std::vector<double>& values) const {
 }
 
 void AskedKey::keep_numbers(const std::vector<double>& values, bool list) const {
-  keep(can_be_said(values) ? toml_numbers(values, key.unit, list) : "");
+  const bool is_no_list = !node && values.empty();  // none by default: not what a scene may say
+  keep(can_be_said(values) && !is_no_list ? toml_numbers(values, key.unit, list) : "");
 }
 
 AskedKey ask(SceneText& scene, const std::string& table, std::string_view name, const Key& key, const std::string& type,

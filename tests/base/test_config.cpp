@@ -284,7 +284,6 @@ cells = [1, 1, 1]
 [more]
 fat = 0
 fields = true
-weights = []
 
 [boundary]
 
@@ -315,7 +314,9 @@ TEST(Config, DoesNotWriteDefaultsOutsideTheirOwnRange) {
   double a = 0, interval = 0, infinite = std::numeric_limits<double>::infinity();
   Table pressure(-1);
   std::string file;
+  std::vector<int> cells;
   s.read("a", a, {});
+  s.read("cells", cells, {.range = {.min = 1}});
   s.read("interval", interval, {.unit = "s", .range = positive});
   s.read("infinite", infinite, {.unit = "s"});
   s.read("pressure", pressure, {.unit = "Pa", .range = positive});
