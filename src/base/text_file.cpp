@@ -235,8 +235,9 @@ std::array<int, 2> choose_columns(const NumberTable& table, const std::string& n
     return {};
   }
   value = find_column(table, name);
-  if (value >= 0) return {time, value};
-  columns.problem = fmt::format("no column {}", in_quotes(name));
+  if (value >= 0 && value != time) return {time, value};
+  columns.problem = value == time ? fmt::format("column {} is that of the times", in_quotes(name))
+                                  : fmt::format("no column {}", in_quotes(name));
   columns.advice = column_advice(table, name);
   return {};
 }

@@ -87,6 +87,12 @@ TEST(Columns, AreTakenByNameFromStorageFiles) {
   EXPECT_EQ(later.value, (std::vector<double>{0.002, 0.004}));
 }
 
+// Found by fuzzing: the column of the times was taken for the values too, and left those empty.
+TEST(Columns, AreNotTheTimes) {
+  EXPECT_EQ(parse_columns("stress\n6\n", "Pa", "stress").problem, "column \"stress\" is that of the times");
+  EXPECT_EQ(parse_columns("stress, t\n1, 0\n", "Pa", "t").problem, "column \"t\" is that of the times");
+}
+
 TEST(Columns, SayWhichThereAre) {
   const Columns misspelt = parse_columns(storage, "", "tib_ant/activaton"), unnamed = parse_columns(storage, "");
   EXPECT_EQ(misspelt.problem, "no column \"tib_ant/activaton\"");
