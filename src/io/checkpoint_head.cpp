@@ -4,6 +4,8 @@
 
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 
 #include "base/digest.hpp"
 #include "base/version.hpp"
@@ -51,15 +53,26 @@ std::string json_of(const CheckpointHead& head) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// The library would cast 1e300 to an integer, which C++ does not define.
+template <class Number>
+void read_whole(const Json& json, const char* key, Number& number) {
+  const Json& value = json.at(key);
+  const bool fits = value.is_number_unsigned()
+                        ? std::in_range<Number>(value.get<std::uint64_t>())
+                        : value.is_number_integer() && std::in_range<Number>(value.get<std::int64_t>());
+  if (!fits) throw std::out_of_range(key);
+  value.get_to(number);
+}
+
 CheckpointHead from_json(const Json& json) {
   CheckpointHead head;
   json.at("version").get_to(head.version);
   json.at("commit").get_to(head.commit);
   json.at("model").get_to(head.model);
-  json.at("ranks").get_to(head.ranks);
-  json.at("step").get_to(head.step);
+  read_whole(json, "ranks", head.ranks);
+  read_whole(json, "step", head.step);
   json.at("time").get_to(head.time);
-  json.at("mesh").get_to(head.mesh);
+  read_whole(json, "mesh", head.mesh);
   json.at("settings").get_to(head.settings);
   json.at("scene_file").get_to(head.scene_file);
   json.at("scene").get_to(head.scene);
@@ -97,7 +110,7 @@ ParsedHead parse_head(std::string_view start, std::uint64_t file_size) {
   if (!parsed.problem.empty()) return parsed;
   try {
     parsed.head = from_json(Json::parse(start.substr(first_line, line.json)));
-  } catch (const Json::exception&) {
+  } catch (const std::exception&) {
     parsed.problem = "has a head that this Titin does not understand";
   }
   return parsed;
