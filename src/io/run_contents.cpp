@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 #include <sstream>
 
 #include "base/config.hpp"
 #include "base/words.hpp"
+#include "io/folder_lock.hpp"
 
 namespace titin {
 namespace {
@@ -73,15 +76,17 @@ Files files_below(const fs::path& path) {
   return files;
 }
 
-/// A list of saved times: a ParaView collection, or a series of VTKHDF files.
+/// A list of saved times: a ParaView collection, or a series of VTKHDF files. (No regular expression: those of the
+/// standard library call themselves for each character, and a damaged file may be one long word.)
 std::set<double> saved_times(const fs::path& index) {
-  static const std::regex pvd("timestep=\"([^\"]*)\""), series("\"time\"\\s*:\\s*([-+.eE\\d]+)");
+  const std::string_view before = index.extension() == ".pvd" ? "timestep=\"" : "\"time\"";
   const std::string text = text_of(index);
   std::set<double> times;
-  const std::regex& one = index.extension() == ".pvd" ? pvd : series;
-  for (std::sregex_iterator it(text.begin(), text.end(), one), end; it != end; ++it) {
-    std::istringstream number((*it)[1].str());
-    if (double time = 0; number >> time) times.insert(time);
+  for (auto at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
+    at = std::min(text.find_first_not_of(" \t:", at + before.size()), text.size());
+    double time = 0;
+    const auto [end, status] = std::from_chars(text.data() + at, text.data() + text.size(), time);
+    if (status == std::errc() && std::isfinite(time)) times.insert(time);
   }
   return times;
 }
@@ -123,7 +128,7 @@ void add_files(RunContents& contents, const fs::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
   for (const std::string& name : names) {
-    if (name == "history.csv" || name == "run.json") continue;
+    if (name == "history.csv" || name == "run.json" || name == lock_file) continue;
     const fs::path path = folder / name;
     const Files files = files_below(path);
     if (!fs::is_directory(path) || fs::is_symlink(path)) {

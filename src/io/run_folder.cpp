@@ -29,13 +29,21 @@ bool is_run(const fs::path& folder) {
   return fs::is_regular_file(folder / "run.json") && fs::is_regular_file(folder / "resolved.toml");
 }
 
+/// Empty, or but for the lock of a run that was killed before it wrote anything.
+bool is_unused(const fs::path& folder, std::error_code& error) {
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    if (it->path().filename() != lock_file) return false;
+  return true;
+}
+
 std::string problem_here(const fs::path& folder, bool overwrite) {
   std::error_code error;
   const auto status = fs::status(folder, error);
   if (!fs::exists(status)) return "";
   if (!fs::is_directory(status)) return "is a file; name a folder with -o";
-  const bool empty = fs::is_empty(folder, error);
+  const bool empty = is_unused(folder, error);
   if (error) return "cannot be read; name another folder with -o";
+  if (const std::string problem = FolderLock::problem_in(folder.string()); !problem.empty()) return problem;
   if (empty) return "";
   if (!is_run(folder)) return "is not empty, and no run of Titin wrote it; name another folder with -o";
   return overwrite ? "" : "holds an earlier run; replace it with --overwrite, or name another folder with -o";
@@ -56,10 +64,13 @@ void clear(const fs::path& folder) {
     if (fs::is_empty(*it)) fs::remove(*it);
 }
 
-std::string make(const fs::path& folder, bool keep) {
+/// Makes the folder and locks it; only then an earlier run is removed.
+std::string take(const fs::path& folder, bool keep, FolderLock& lock) {
   try {
-    if (fs::exists(folder) && !keep) clear(folder);
     fs::create_directories(folder);
+    lock = FolderLock(folder.string());
+    if (!lock.problem().empty()) return lock.problem();
+    if (!keep) clear(folder);
     const fs::path probe = folder / "run.json.part";
     const bool writable = static_cast<bool>(std::ofstream(probe) << '\n' << std::flush);
     fs::remove(probe);
@@ -82,14 +93,17 @@ std::string RunFolder::problem(const std::string& path, bool overwrite) {
 
 RunFolder::RunFolder(const std::string& path, bool overwrite) : path_(path) {
   stop_at(path, broadcast(is_root() ? problem_here(path, overwrite) : ""));
-  stop_at(path, broadcast(is_root() ? make(path, false) : ""));
+  make(false);
 }
 
 RunFolder RunFolder::of_restart(const std::string& path) {
   stop_at(path, broadcast(is_root() && !is_run(path) ? "holds no run of Titin that could go on" : ""));
-  stop_at(path, broadcast(is_root() ? make(path, true) : ""));
-  return RunFolder(path);
+  RunFolder folder(path);
+  folder.make(true);
+  return folder;
 }
+
+void RunFolder::make(bool keep) { stop_at(path_, broadcast(is_root() ? take(path_, keep, lock_) : "")); }
 
 void RunFolder::write(const std::string& name, const std::string& text) const {
   if (!is_root()) return;

@@ -1,8 +1,10 @@
-/// The folder of a run: resolved.toml, run.log, run.json, history.csv, fields/ (ParaView), checkpoints/.
-/// What a user put there is never removed.
+/// The folder of a run: resolved.toml, run.log, run.json, run.lock, history.csv, fields/ (ParaView), checkpoints/.
+/// What a user put there is never removed; no other run writes there as long as this object lives.
 #pragma once
 
 #include <string>
+
+#include "io/folder_lock.hpp"
 
 namespace titin {
 
@@ -22,7 +24,9 @@ class RunFolder {
 
  private:
   explicit RunFolder(const std::string& path) : path_(path) {}
+  void make(bool keep);
   std::string path_;
+  FolderLock lock_;  // rank 0's
 };
 
 }  // namespace titin

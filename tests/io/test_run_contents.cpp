@@ -72,6 +72,17 @@ TEST_F(RunContentsTest, ReadsASeriesOfFiles) {
   EXPECT_EQ(fact("fields/").substr(0, 26), "2 times from 0 to 0.25 s, ");
 }
 
+// One word of a million letters: a reader that calls itself for each of them has no such stack.
+TEST_F(RunContentsTest, IsNotImpressedByLongWords) {
+  write("run.json", "{}");
+  const std::string word(1'000'000, '1');
+  write("fields/fields.pvd", "<DataSet timestep=\"0.5\"/><DataSet timestep=\"" + word);
+  EXPECT_EQ(fact("fields/").substr(0, 24), "1 time from 0.5 to 0.5 s");
+  write("fields/fields.vtkhdf.series",
+        "\"time\": 0.25, \"time\"" + std::string(1'000'000, ' ') + ": 2, \"time\": " + word);
+  EXPECT_EQ(fact("fields/").substr(0, 24), "3 times from 0.25 to 2 s");
+}
+
 TEST_F(RunContentsTest, SaysWhatIsDamaged) {
   EXPECT_EQ(refusal(), "holds no run.json, so no run of Titin wrote it");
   write("run.json", "{\"status\": \"run");

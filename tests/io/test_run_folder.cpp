@@ -108,6 +108,31 @@ TEST_F(Folder, DoesNotFollowLinks) {
   if (is_root()) fs::remove_all(path / "../titin_elsewhere");
 }
 
+TEST_F(Folder, BelongsToOneRunAtATime) {
+  const std::string taken = "another run is writing to it (process ";
+  {
+    const RunFolder first(path, false);
+    first.write("run.json", "{}");
+    first.write("resolved.toml", "");
+    any_of(false);
+    for (const bool overwrite : {false, true}) EXPECT_EQ(message(overwrite).substr(0, taken.size()), taken);
+    EXPECT_THROW(RunFolder::of_restart(path), InputError);
+    EXPECT_TRUE(has("resolved.toml"));
+  }
+  any_of(false);
+  { RunFolder::of_restart(path); }
+  any_of(false);
+  EXPECT_EQ(message(true), "");
+}
+
+TEST_F(Folder, OfARunThatWroteNothingIsEmpty) {
+  put("run.lock");
+  EXPECT_EQ(message(false), "");
+  put("run.lock");
+  put("mine");
+  EXPECT_EQ(message(true), "is not empty, and no run of Titin wrote it; name another folder with -o");
+}
+
 TEST_F(Folder, ThatIsAFileIsRefused) {
   if (is_root()) std::ofstream(path) << "x";
   any_of(false);

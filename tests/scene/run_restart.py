@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Restarts titin on other numbers of ranks, and after kill -9 at any moment.
 
-    run_restart.py TITIN [--kills N] [--only NAME]
+    run_restart.py TITIN [--kills N] [--only ranks|kills|twice]
 
 Each scene runs whole with checkpoints on one rank and on two. A copy of each goes on from a checkpoint of the middle on
 the other number of ranks: its history must be that of the run which never stopped, to round-off; so must its ParaView
 index. Then a run that writes a checkpoint after every step is killed N times (default 6), each time after another while,
 and restarted: it always finds a whole checkpoint, and in the end its history is that of a run never killed, byte by byte.
+At last a second run is started into the folder of one that runs.
 """
 import argparse
 import csv
@@ -156,19 +157,44 @@ def killed(titin, folder, kills):
         yield f"the killed run has another history: it differs by {difference(never, often):.3g}"
 
 
+def twice(titin, folder):
+    """What is wrong with two runs in one folder; the first is stopped so that it holds the folder as long as needed."""
+    scene, overrides = KILLED
+    run = folder / "twice"
+    first = subprocess.Popen(command(titin, 1, [TOP / scene, *overrides, "-o", run]), env=os.environ | MPI_ENVIRONMENT)
+    while first.poll() is None and not checkpoints(run):
+        time.sleep(0.001)
+    first.send_signal(signal.SIGSTOP)
+    history = (run / "history.csv").read_bytes()
+    for words in ["--restart", run], [TOP / scene, *overrides, "-o", run], [TOP / scene, *overrides, "-o", run, "--overwrite"]:
+        second = subprocess.run(command(titin, 1, words), env=os.environ | MPI_ENVIRONMENT, capture_output=True, text=True)
+        sentence = f"another run is writing to it (process {first.pid} on "
+        if second.returncode != 1 or sentence not in second.stderr:
+            yield f"a second run into the folder of one that runs: exit code {second.returncode}, {second.stderr}"
+    if (run / "history.csv").read_bytes() != history:
+        yield "the second run touched the history of the first"
+    first.kill()
+    first.wait()
+    call(titin, 1, ["--restart", run, "time.end=0.06 s"])
+    print("two runs in one folder: the second is refused, until the first is killed", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description="Restarts titin on other numbers of ranks and after kill -9.")
     parser.add_argument("titin", type=pathlib.Path)
     parser.add_argument("--kills", type=int, default=6)
-    parser.add_argument("--only", choices=["ranks", "kills"])
+    parser.add_argument("--only", choices=["ranks", "kills", "twice"])
     arguments = parser.parse_args()
     titin = arguments.titin.resolve()
     wrong = []
     with tempfile.TemporaryDirectory(prefix="titin_restart_") as folder:
-        if arguments.only != "kills":
-            wrong += other_ranks(titin, pathlib.Path(folder))
-        if arguments.only != "ranks":
-            wrong += killed(titin, pathlib.Path(folder), arguments.kills)
+        parts = {
+            "ranks": lambda: other_ranks(titin, pathlib.Path(folder)),
+            "kills": lambda: killed(titin, pathlib.Path(folder), arguments.kills),
+            "twice": lambda: twice(titin, pathlib.Path(folder)),
+        }
+        for name in [arguments.only] if arguments.only else parts:
+            wrong += parts[name]()
     for text in wrong:
         print(f"WRONG  {text}")
     sys.exit(1 if wrong else 0)
