@@ -1,6 +1,9 @@
 #include "base/log.hpp"
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "base/parallel.hpp"
@@ -11,6 +14,7 @@ namespace {
 struct CloseFile {
   void operator()(std::FILE* f) const { std::fclose(f); }
 };
+constexpr int red = 31, yellow = 33;
 Level current = Level::normal;
 int warning_count = 0;
 std::unique_ptr<std::FILE, CloseFile> file;
@@ -23,6 +27,22 @@ void put(std::FILE* out, std::string_view line) {
 
 void to_file(std::string_view line) {
   if (file) put(file.get(), line);
+}
+
+/// On a terminal, unless its user or its kind wants none (https://no-color.org).
+bool in_colour() {
+  static const bool wanted = [] {
+    const char *refused = std::getenv("NO_COLOR"), *kind = std::getenv("TERM");
+    return isatty(STDERR_FILENO) && !(refused && *refused) && kind && std::string_view(kind) != "dumb";
+  }();
+  return wanted;
+}
+
+/// "error: ...", its first word in a colour (as terminals number them).
+void put_error(std::string_view word, int colour, std::string_view line) {
+  to_file(fmt::format("{}: {}", word, line));
+  put(stderr,
+      in_colour() ? fmt::format("\x1b[1;{}m{}:\x1b[0m {}", colour, word, line) : fmt::format("{}: {}", word, line));
 }
 
 }  // namespace
@@ -43,17 +63,11 @@ void write(Level level, std::string_view line) {
 
 void warning(std::string_view line) {
   ++warning_count;
-  if (!is_root()) return;
-  const std::string text = fmt::format("warning: {}", line);
-  to_file(text);
-  put(stderr, text);
+  if (is_root()) put_error("warning", yellow, line);
 }
 
 void error(std::string_view line) {
-  if (!is_root()) return;
-  const std::string text = fmt::format("error: {}", line);
-  to_file(text);
-  put(stderr, text);
+  if (is_root()) put_error("error", red, line);
 }
 
 int warnings() { return warning_count; }
