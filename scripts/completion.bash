@@ -107,6 +107,7 @@ exact_motion.swing.amplitude
 exact_motion.swing.length
 fv.cascade
 fv.cfl
+fv.collapse
 fv.first_step
 fv.growth
 fv.impedance

@@ -51,6 +51,10 @@ void FvConfig::bind(Section& s) {
               "velocity by more than this part of the wave speed"});
   s.read("range_tolerance", range_tolerance,
          {.range = non_negative, .doc = "the same, relative to that range; the larger of both holds"});
+  s.read("collapse", collapse,
+         {.range = {.min = 0, .max = 0.1},
+          .doc = "the run ends, and says where, when cells allow steps of no more than this part of the longest one so "
+                 "far: a cell has collapsed, and steps would get shorter without end"});
 }
 
 }  // namespace titin

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.hpp"
 #include "fv/motion_errors.hpp"
@@ -116,14 +117,36 @@ Step Lagrange<D>::advance(double dt) {
   Step step;
   step.time = time_ + dt;
   step.dt = dt_ = dt;
-  step.failure = scheme_.advance(time_, dt);
+  step.failure = has_collapsed() ? collapse() : scheme_.advance(time_, dt);
   return step;
+}
+
+/// Which cell allows the shortest step, and what has become of it. Collective.
+template <int D>
+std::string Lagrange<D>::collapse() const {
+  const auto& state = scheme_.state();
+  const auto narrowest = std::min_element(state.crossing.begin(), state.crossing.end());
+  const double least = min(*narrowest);
+  const double first = min(*narrowest == least ? static_cast<double>(rank()) : std::numeric_limits<double>::infinity());
+  std::vector<double> facts(5);
+  if (first == rank()) {
+    const auto cell = static_cast<int>(narrowest - state.crossing.begin());
+    std::copy(state.cell[cell].centre.begin(), state.cell[cell].centre.end(), facts.begin());
+    facts[3] = state.volume[cell] / simplex_volume<D>(cells_.corners_of(cell, cells_.x));
+    facts[4] = state.cell[cell].density;
+  }
+  sum(facts);
+  return fmt::format(
+      "the cell around ({:.4g}, {:.4g}, {:.4g}) m has collapsed to {:.3g} of its volume, density {:.4g} kg/m^3: cells "
+      "allow steps of {:.3g} s, where {:.3g} s were possible",
+      facts[0], facts[1], facts[2], facts[3], facts[4], scheme_.largest_dt(), longest_dt_);
 }
 
 template <int D>
 void Lagrange<D>::accept() {
   scheme_.accept(dt_);
   time_ += dt_;
+  longest_dt_ = std::max(longest_dt_, scheme_.largest_dt());
   history_.follow(dt_);
 }
 

@@ -40,6 +40,8 @@ class Lagrange final : public Model {
   std::vector<BoundaryCondition<D>> conditions() const;
   std::vector<CellStart> start() const;
   std::pair<FlowPoint, int> start_of(int cell) const;
+  bool has_collapsed() const { return scheme_.largest_dt() < config_.fv.collapse * longest_dt_; }
+  std::string collapse() const;
   void add_surface_errors(std::vector<Quantity>& list) const;
 
   NamedMesh mesh_;
@@ -50,6 +52,7 @@ class Lagrange final : public Model {
   LagrangeHistory<D> history_;
   LagrangeFields<D> fields_;
   double time_ = 0, dt_ = 0;  // of the accepted state; of the step being tried
+  double longest_dt_ = 0;     // that cells have allowed so far [s]
 };
 
 /// In the dimension of the mesh. Collective.

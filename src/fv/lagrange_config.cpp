@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "mesh/named_parts.hpp"
 
@@ -104,6 +105,31 @@ void InitialConfig::bind(Section& s, const NamedMesh& mesh) {
   s.read("length", length, {.unit = "m", .range = positive, .doc = "of the motion"});
 }
 
+void InitialConfig::check_point(Section& s, mfem::ParMesh& mesh) const {
+  if (!has_point) return;
+  long cells = 0;
+  mfem::Vector middle;
+  mfem::Array<int> nodes;
+  const auto place = [&](const double* x) {
+    Vec3 a{};
+    std::copy_n(x, mesh.Dimension(), a.begin());
+    return a;
+  };
+  for (int e = 0; e < mesh.GetNE(); ++e) {
+    mesh.GetElementCenter(e, middle);
+    mesh.GetElementVertices(e, nodes);
+    std::vector<Vec3> corners;
+    for (int node : nodes) corners.push_back(place(mesh.GetVertex(node)));
+    InitialConfig here;
+    here.has_point = true;
+    here.point = point;
+    cells += here.holds(mesh.GetAttribute(e), place(middle.GetData()), corners);
+  }
+  if (sum(cells) == 0)
+    s.error("point", fmt::format("no node of the mesh lies at ({:g}, {:g}, {:g}) m", point[0], point[1], point[2]),
+            "name a corner of cells, or give a ball by centre and radius");
+}
+
 bool InitialConfig::fills(int region) const {
   return !has_lower && !has_upper && !has_radius && !has_point &&
          (regions.empty() || std::count(regions.begin(), regions.end(), region) > 0);
@@ -171,6 +197,7 @@ void LagrangeConfig::bind(Section& root, const NamedMesh& mesh) {
     InitialConfig start;
     start.name = name;
     start.bind(s, mesh);
+    if (mesh.mesh) start.check_point(s, *mesh.mesh);
     initial.push_back(start);
   });
   markers = read_markers(root, mesh);

@@ -57,6 +57,8 @@ struct InitialConfig {
   /// In a cell of this region around x with these corners.
   bool holds(int region, const Vec3& x, const std::vector<Vec3>& corners) const;
   bool fills(int region) const;  ///< all of it?
+  /// Reports a point where no node is. Collective.
+  void check_point(Section& s, mfem::ParMesh& mesh) const;
   Vec3 velocity_at(const Vec3& x) const;
 };
 

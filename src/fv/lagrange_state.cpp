@@ -74,6 +74,7 @@ void Lagrange<D>::walk_state(StateWalk& walk) {
   scheme_.walk(walk, cells, nodes);
   history_.walk(walk);
   walk.number("time", time_);
+  walk.number("longest_dt", longest_dt_);
 }
 
 template void FlowScheme<2>::walk(StateWalk&, const StateRows&, const StateRows&);
