@@ -4,7 +4,7 @@
     scripts/timings.py [growth] [efficiency] [equal] [accuracy] [--build build] [--work timings]
 
 growth: one linear solve at 47, 207 and 499 thousand unknowns. efficiency: one step of the muscle block with 100 thousand
-unknowns on one rank and on two. equal, accuracy: scripts/compare_speed.py; the over-refined solution takes an hour, unless an
+unknowns on one rank and on two. equal, accuracy: scripts/compare_speed.py; the over-refined solution takes some minutes, unless an
 earlier run left it in the folder of work (over_refined.csv).
 CPU seconds are those of the processes. Efficiencies are given twice: by wall time, which company on the machine spoils, and
 by CPU time summed over the ranks, in which ranks that wait for each other count as far as they spin.

@@ -224,7 +224,7 @@ struct Case {
   int order;
   std::vector<int> cells;  // along an edge
   int accuracy = order;    // k of the errors
-  double missing = slack;  // of the displacement's slope: that of wedges still rises, 1.45, 1.73
+  double missing = slack;  // of the displacement's slope: that of wedges still rises, 1.73, 1.78, 1.86
 };
 
 class Space : public testing::TestWithParam<Case> {};
@@ -272,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(Elements, Space,
                                          Case{"hexahedron_3", 3, "tensor", "three_field", 3, {3, 5}},
                                          Case{"tetrahedron_1", 3, "simplices", "three_field", 1, {4, 8}},
                                          Case{"tetrahedron_2", 3, "simplices", "three_field", 2, {2, 4}},
-                                         Case{"wedge_2", 3, "wedges", "three_field", 2, {5, 10}, 1, 0.3},
+                                         Case{"wedge_2", 3, "wedges", "three_field", 2, {7, 10}, 1, 0.25},
                                          Case{"quadrilateral_displacement_2", 2, "tensor", "displacement", 2, {6, 12}},
                                          Case{"triangle_displacement_3", 2, "simplices", "displacement", 3, {4, 8}},
                                          Case{"hexahedron_displacement_1", 3, "tensor", "displacement", 1, {4, 8}},
