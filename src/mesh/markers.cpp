@@ -46,9 +46,9 @@ void find_markers(std::vector<MarkerConfig>& markers, mfem::ParMesh& mesh, Secti
 }  // namespace
 
 std::vector<MarkerConfig> read_markers(Section& root, const NamedMesh& mesh) {
-  Section points = root.section(
-      "markers",
-      "points whose displacement is followed: NAME = \"x, y, z mm\" (of a plane body \"x, y mm\"), undeformed");
+  Section points = root.section("markers",
+                                "points whose displacement is followed: NAME = \"x, y, z mm\" (of a plane body \"x, y "
+                                "mm\", of a rod \"x mm\"), undeformed");
   std::vector<MarkerConfig> markers;
   for (const std::string& name : points.names()) {
     MarkerConfig marker{name, {}, -1, {}};

@@ -36,8 +36,8 @@ SCENES = {
     "sod": ("configs/lagrange/sod.toml", ["mesh.cells=[30, 3]", "output.history_every=1", "output.checkpoint_every=20"],
             40, 1e-10),
     # Every rank computes the whole rod: nothing may differ.
-    "rod": ("configs/rod/lifted_load.toml", ["time.end=0.2 s", "output.checkpoint_every=20"], 80, 0),
-    "chain": ("configs/rod/chain.toml", ["time.end=0.1 s", "output.checkpoint_every=20"], 80, 0),
+    "rod": ("configs/rod/lifted_load.toml", ["time.end=0.08 s", "output.checkpoint_every=20"], 40, 0),
+    "chain": ("configs/rod/chain.toml", ["time.end=0.04 s", "output.checkpoint_every=20"], 40, 0),
 }  # fmt: skip
 
 
