@@ -83,8 +83,7 @@ def shock(folder, level):
 def blast(j, gamma=1.4):
     """Density and pressure over x = r / R, for R = rho_0 = 1 and a shock of speed 1; and alpha.
 
-    With v, d, p of x alone: (v - x) d' + d (v' + (j - 1) v / x) = 0, (v - x) v' + (1 - 2 / delta) ... ; R ~ t^delta, delta = 2 / (j + 2),
-    so that R R'' / R'^2 = 1 - 1 / delta."""
+    R ~ t^(2 / (j + 2)) has R R'' = a R'^2; with u = R' v(x), rho = d(x), p = R'^2 p(x) the equations of the gas are ordinary ones in x."""
     a = 1 - (j + 2) / 2
 
     def slopes(x, y):
@@ -100,7 +99,8 @@ def blast(j, gamma=1.4):
     x = np.linspace(0.02, 1, 4001)
     v, d, p = inward.sol(x)
     around = {2: 2 * np.pi, 3: 4 * np.pi}[j]
-    alpha = (2 / (j + 2)) ** 2 * around * np.trapezoid((d * v * v / 2 + p / (gamma - 1)) * x ** (j - 1), x)
+    core = p[0] / (gamma - 1) * x[0] ** j / j  # of almost uniform pressure, at rest
+    alpha = (2 / (j + 2)) ** 2 * around * (core + np.trapezoid((d * v * v / 2 + p / (gamma - 1)) * x ** (j - 1), x))
     return x, d, p, alpha
 
 
@@ -131,6 +131,7 @@ def draw():
         for k, (name, run) in enumerate(kept(f"{kind}_*.csv")):
             if "cells_limited" not in run:
                 continue
+            run = {column: values[1:] for column, values in run.items()}  # the start knows no orders yet
             place.plot(run["time"], run["cells_limited"], color=COLOURS[k % len(COLOURS)], linewidth=1, linestyle=(0, (3, 1)), label=f"{name}: limited")
             place.plot(run["time"], run["cells_constant"], color=COLOURS[k % len(COLOURS)], linewidth=1.2, label=f"{name}: constant")
         place.set(title=f"{title}: % of cells that lost an order", xlabel="time [s]", ylim=(0, None))
