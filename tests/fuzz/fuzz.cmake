@@ -19,6 +19,9 @@ target_link_libraries(titin_test_fuzz PRIVATE titin_fuzz_targets)
 if(NOT TITIN_CORE_ONLY)
   target_compile_definitions(titin_test_fuzz PRIVATE TITIN_FUZZ_MESH)
 endif()
+if(CMAKE_CXX_FLAGS_DEBUG MATCHES "fsanitize" AND CMAKE_BUILD_TYPE STREQUAL "Debug")  # it starts MPI
+  target_sources(titin_test_fuzz PRIVATE sanitize/keep_libraries.cpp)
+endif()
 titin_ctest(fuzz_corpus RANKS 1 LABEL fast COMMAND $<TARGET_FILE:titin_test_fuzz> ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus)
 
 if(TITIN_FUZZ)
