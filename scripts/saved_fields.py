@@ -21,6 +21,8 @@ def draw_without_a_screen():
 draw_without_a_screen()
 import numpy as np  # noqa: E402
 import pyvista as pv  # noqa: E402
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline  # noqa: E402
+from vtkmodules.vtkIOHDF import vtkHDFReader  # noqa: E402
 
 # What a field is called in a picture; those worth one come first, best first.
 TITLES = {
@@ -59,12 +61,14 @@ class SavedFields:
         self.read_raw = lambda k: pv.read(path.parent / files[k]["name"])
 
     def _open_file(self, path):
-        reader = pv.get_reader(str(path))
-        self.times = reader.time_values
+        reader = vtkHDFReader()  # PyVista's knows no times
+        reader.SetFileName(str(path))
+        reader.UpdateInformation()
+        self.times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS()) or (0.0,)
 
         def read(k):
-            reader.set_active_time_point(k)
-            return reader.read()
+            reader.UpdateTimeStep(self.times[k])
+            return pv.wrap(reader.GetOutputDataObject(0)).copy()
 
         self.read_raw = read
 

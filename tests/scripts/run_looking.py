@@ -215,6 +215,25 @@ def plane(looks):
     looks.check(sentence == "" and colours(image) > 100, "a plane body is drawn", said + sentence)
 
 
+def other_formats(looks, run):
+    """The same picture and report from VTKHDF files as from VTU files."""
+    seen = looks.folder / "seen.png"
+    words = ["--size", 240, 180, "--field", "pressure"]
+    looks.script("view.py", run, "-o", seen, *words)
+    listed, _ = looks.script("view.py", run, "--list")
+    for name in "vtkhdf", "vtkhdf_transient":
+        other = looks.run(name, [*BLOCK, f"output.format={name}"])
+        picture = looks.folder / f"{name}.png"
+        said, sentence = looks.script("view.py", other, "-o", picture, *words)
+        differs = np.mean(np.any(np.abs(pixels(picture) - pixels(seen)) > 8, axis=2)) if picture.exists() else 1
+        looks.check(sentence == "" and differs < 1e-3, f"view draws {name} as it draws VTU", f"{differs} {said}{sentence}")
+        fields, _ = looks.script("view.py", other, "--list")
+        looks.check(fields.splitlines()[1:] == listed.splitlines()[1:], "and lists its fields and times", fields + listed)
+    page = looks.folder / "hdf.html"
+    said, sentence = looks.script("report.py", other, "-o", page)
+    looks.check(sentence == "" and "data:image/png" in page.read_text(), "a report of a VTKHDF run has pictures", said + sentence)
+
+
 def main():
     titin = str(pathlib.Path(sys.argv[1]).absolute())
     with tempfile.TemporaryDirectory() as scratch:
@@ -224,6 +243,7 @@ def main():
         run = looks.run("block", BLOCK)
         for part in (pictures, animations, refusals, curves):
             part(looks, run)
+        other_formats(looks, run)
         plane(looks)
         in_the_browser(looks, report(looks, run))
     print("\n".join(looks.wrong) or f"{looks.checks} checks passed")
