@@ -110,6 +110,7 @@ fv.cfl
 fv.collapse
 fv.first_step
 fv.growth
+fv.heat_tolerance
 fv.impedance
 fv.limiter
 fv.order

@@ -79,6 +79,10 @@ class SolidClosure final : public Closure {
   }
 
   std::vector<double> kinks() const override { return material_->kinks(); }
+  bool does_work() const override {
+    const auto& terms = material_->terms();
+    return std::any_of(terms.begin(), terms.end(), [](const TermInfo& t) { return !t.stores_energy || t.has_curves; });
+  }
   bool has_fibres() const override { return material_->has_fibres(); }
   void fibre_stretch(const CellBatch& in, double* stretch) const override {
     std::array<double, batch> rate, activation;

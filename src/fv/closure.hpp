@@ -52,6 +52,8 @@ class Closure {
   virtual std::vector<double> kinks() const { return {}; }  ///< times at which an activation has a kink [s]
   /// Is this a state the material is good for?
   virtual bool admissible(double density, double energy) const = 0;
+  /// Does its stress also do work that no stored energy tells (active fibres)?
+  virtual bool does_work() const { return false; }
   /// Energy stored without heat [J/kg]: what a solid gives back. Fluids store none.
   virtual void stored(const CellBatch& in, double* psi) const = 0;
   /// Specific internal energy [J/kg] of an undeformed solid, or of a fluid at this pressure.

@@ -49,6 +49,10 @@ void FvConfig::bind(Section& s) {
       {.range = positive,
        .doc = "a fluid is shocked, and loses its slopes, in a cell that shrinks while its nodes differ from its mean "
               "velocity by more than this part of the wave speed"});
+  s.read("heat_tolerance", heat_tolerance,
+         {.range = non_negative,
+          .doc = "a solid's cell whose heat falls, and is below minus this part of its stored energy and of the motion "
+                 "within it, loses an order: it would take motion out of nothing"});
   s.read("range_tolerance", range_tolerance,
          {.range = non_negative, .doc = "the same, relative to that range; the larger of both holds"});
   s.read("collapse", collapse,

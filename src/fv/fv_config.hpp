@@ -34,6 +34,9 @@ struct FvConfig {
   // A run whose steps have shrunk to this part of the longest one stands still. Measured: by 1e-2 in a piston's gas
   // after four echoes of its shock, by 1e-5 and on without end where a cell is squeezed between its neighbours.
   double collapse = 1e-5;
+  // A solid's heat falls below minus this part of what its cell stores and of the motion within it: such a step takes
+  // motion out of nothing.
+  double heat_tolerance = 0.1;
   void bind(Section& s);
 };
 

@@ -17,6 +17,8 @@ constexpr double volume_margin = 2;
 /// A cell whose nodes miss its linear velocity by less than this part of their differences is strained as a whole,
 /// which no jump in it does.
 constexpr double linear_flow = 0.05;
+/// Part of a cell's energy that is round-off in its heat.
+constexpr double heat_round_off = 1e-12;
 std::vector<int> numbers(int n) {
   std::vector<int> list(n);
   std::iota(list.begin(), list.end(), 0);
@@ -64,6 +66,8 @@ FlowScheme<D>::FlowScheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, co
     const Vector<D> v = velocity_of<D>(now_.cell[c].q);
     now_.energy[c] = start[c].energy + 0.5 * dot(v, v);
   }
+  judges_heat_ = config_.order == 2 && config_.limiter == Limiter::mood && !config_.patch_pressure &&
+                 std::none_of(start.begin(), start.end(), [](const CellStart& c) { return c.closure->does_work(); });
   if (config_.patch_pressure) patches_ = std::make_unique<PatchPressure<D>>(mesh, exchange, closure_);
   update(all_, 0, 0);  // without forces: completes the state
   std::swap(now_, next_);
@@ -233,7 +237,7 @@ void FlowScheme<D>::update(std::span<const int> cells, double t, double dt) {
   for_blocks(cells, [&](std::span<const int> run, const Closure& closure) {
     const int n = static_cast<int>(run.size());
     std::array<Mat3, cells_per_block> F;
-    std::array<double, cells_per_block> density, energy, speed, diameter;
+    std::array<double, cells_per_block> density, energy, speed, diameter, psi;
     std::array<Sym3, cells_per_block> T;
     for (int b = 0; b < n; ++b) {
       const int c = run[b];
@@ -248,6 +252,13 @@ void FlowScheme<D>::update(std::span<const int> cells, double t, double dt) {
     }
     closure.stress_and_speed({n, F.data(), density.data(), energy.data(), run.data(), t + dt}, waves_.data(), T.data(),
                              speed.data());
+    if (judges_heat_ && closure.is_solid()) {
+      closure.stored({n, F.data(), nullptr, nullptr, nullptr, t + dt}, psi.data());
+      for (int b = 0; b < n; ++b) {
+        next_.stored[run[b]] = psi[b];
+        next_.most_heat[run[b]] = std::max(now_.most_heat[run[b]], energy[b] - psi[b]);
+      }
+    }
     for (int b = 0; b < n; ++b) {
       set_stress<D>(T[b], next_.cell[run[b]].q);
       next_.speed[run[b]] = speed[b];
@@ -271,7 +282,7 @@ bool FlowScheme<D>::has_meaning(int cell) const {
 /// and a body that is accelerated as a whole leaves all its velocities.
 template <int D>
 bool FlowScheme<D>::in_trouble(int cell, double dt) const {
-  if (!has_meaning(cell) || is_shocked(cell)) return true;
+  if (!has_meaning(cell) || is_shocked(cell) || has_lost_heat(cell)) return true;
   constexpr int judged = Reconstruction<D>::judged_count;
   const CellRecord<D>& before = now_.cell[cell];
   const double c = now_.speed[cell];
@@ -287,7 +298,7 @@ bool FlowScheme<D>::in_trouble(int cell, double dt) const {
     const double gained = k < 2 ? 0 : dt / before.density * divergence_of_stress<D>(g)[k - 2];
     if (candidate[k] >= low + std::min(gained, 0.0) - allowed && candidate[k] <= high + std::max(gained, 0.0) + allowed)
       continue;
-    return !is_smooth(cell, g);
+    return !is_smooth(cell, node_jumps(cell, g));
   }
   return false;
 }
@@ -305,6 +316,21 @@ bool FlowScheme<D>::is_shocked(int cell) const {
     return false;
   const NodeJumps at = node_jumps(cell, reconstruction_.slopes(cell, *source_.state));
   return at.jump > linear_flow * at.variation;
+}
+
+/// Has a solid lost heat that it had, by more than slopes hide of motion within the cell, where slopes are
+/// worse than none?
+/// Constant cells make heat alone.
+template <int D>
+bool FlowScheme<D>::has_lost_heat(int cell) const {
+  if (!judges_heat_ || !closure_[cell]->is_solid()) return false;
+  const double heat = internal_energy(cell, next_) - next_.stored[cell],
+               before = internal_energy(cell, now_) - now_.stored[cell], loss = now_.most_heat[cell] - heat;
+  const double part = config_.heat_tolerance, round_off = heat_round_off * next_.energy[cell];
+  if (heat >= before || loss <= part * next_.stored[cell] + round_off) return false;
+  const NodeJumps at = node_jumps(cell, reconstruction_.slopes(cell, *source_.state));
+  const double within = 0.5 * at.variation * at.variation;
+  return loss > part * (next_.stored[cell] + within) + round_off && at.jump > at.variation && !is_smooth(cell, at);
 }
 
 /// Over the step.
@@ -333,8 +359,7 @@ typename FlowScheme<D>::NodeJumps FlowScheme<D>::node_jumps(int cell, const Slop
 /// Do the cell's nodes move as its own linear velocity says? Where the flow is smooth they do but for terms of second
 /// order in its size, at jumps they do not.
 template <int D>
-bool FlowScheme<D>::is_smooth(int cell, const Slopes<D>& g) const {
-  const NodeJumps at = node_jumps(cell, g);
+bool FlowScheme<D>::is_smooth(int cell, const NodeJumps& at) const {
   return at.jump <= std::max(config_.smooth_jump * at.variation, config_.small_jump * now_.speed[cell]);
 }
 

@@ -86,8 +86,9 @@ class FlowScheme {
   };
   NodeJumps node_jumps(int cell, const Slopes<D>& g) const;
   bool is_shocked(int cell) const;
+  bool has_lost_heat(int cell) const;
   Vector<D> mean_velocity(int cell) const;
-  bool is_smooth(int cell, const Slopes<D>& g) const;
+  bool is_smooth(int cell, const NodeJumps& at) const;
   bool has_meaning(int cell) const;
   std::string judge(double t, double dt);
   std::string failure(bool judged) const;
@@ -114,6 +115,7 @@ class FlowScheme {
   std::vector<Vector<D>> half_x_;
   Source source_{};
   double largest_dt_ = 0;
+  bool judges_heat_ = false;       // do all solids store energy, and does MOOD ask for it?
   bool nodes_have_moved_ = false;  // is there a velocity of nodes to compare cells with?
 };
 

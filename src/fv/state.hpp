@@ -47,14 +47,24 @@ static_assert(sizeof(CellRecord<2>) == 64 && sizeof(CellRecord<3>) == 128);
 template <int D>
 struct FlowState {
   FlowState(int cells, int nodes)
-      : cell(cells), energy(cells), volume(cells), speed(cells), crossing(cells), x(nodes), v(nodes) {}
+      : cell(cells),
+        energy(cells),
+        stored(cells),
+        most_heat(cells),
+        volume(cells),
+        speed(cells),
+        crossing(cells),
+        x(nodes),
+        v(nodes) {}
 
   std::vector<CellRecord<D>> cell;
-  std::vector<double> energy;    // total specific [J/kg]
-  std::vector<double> volume;    // [m^3], or [m^2] per unit thickness
-  std::vector<double> speed;     // of the fastest wave [m/s]
-  std::vector<double> crossing;  // time that it takes through the cell's inner ball [s]
-  std::vector<Vector<D>> x, v;   // nodes: position [m]; velocity of the step that led here [m/s]
+  std::vector<double> energy;     // total specific [J/kg]
+  std::vector<double> stored;     // of it, by a solid without heat [J/kg]; 0 where nobody asks
+  std::vector<double> most_heat;  // the most that the rest has been, since a start without any [J/kg]
+  std::vector<double> volume;     // [m^3], or [m^2] per unit thickness
+  std::vector<double> speed;      // of the fastest wave [m/s]
+  std::vector<double> crossing;   // time that it takes through the cell's inner ball [s]
+  std::vector<Vector<D>> x, v;    // nodes: position [m]; velocity of the step that led here [m/s]
 };
 
 }  // namespace titin
