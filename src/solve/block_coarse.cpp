@@ -15,7 +15,7 @@ namespace {
 /// the coarse problem solved better.
 constexpr double tolerance_compact = 0.3, tolerance_elongated = 0.1;
 constexpr double elongated = 2.5;
-constexpr int most_steps = 12;
+constexpr int most_steps = 30;
 constexpr double at_corner = 1 - 1e-9;  // the hat of a corner, there
 
 }  // namespace
