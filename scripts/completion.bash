@@ -5,9 +5,10 @@
 # A key comes one part at a time; where the name is yours (materials.NAME), those of the scene on the line are offered.
 if [ -n "${ZSH_VERSION:-}" ]; then autoload -U +X compinit bashcompinit && compinit && bashcompinit; fi
 
-_titin_commands='run check inspect materials keys help'
+_titin_commands='run check advise inspect materials keys help'
 _titin_options_run='-h --help -o --overwrite --restart -v -q'
 _titin_options_check='-h --help'
+_titin_options_advise='-h --help --quantity --tolerance --apply'
 _titin_options_inspect='-h --help'
 _titin_options_materials='-h --help --json'
 _titin_options_keys='-h --help --json'
@@ -137,6 +138,9 @@ initial.<NAME>.regions
 initial.<NAME>.upper
 initial.<NAME>.velocity
 initial.centre
+initial.length
+initial.motion
+initial.rate
 initial.spin
 initial.velocity
 link.<NAME>.between
@@ -395,6 +399,7 @@ output.precision
 output.times
 output.wall_limit
 petsc.<NAME>
+reference.columns
 reference.history
 rod.area
 rod.cells
@@ -444,6 +449,7 @@ fv.limiter mood barth_jespersen none
 fv.patch_pressure true false
 fv.predictor hancock ader rk2
 initial.<NAME>.motion uniform radial twist swing bend
+initial.motion uniform radial twist swing bend
 materials.<NAME>.fibre_invariants isochoric full
 materials.<NAME>.fluid.law perfect_gas stiffened_gas mie_gruneisen
 materials.<NAME>.growth.law isotropic area fibre

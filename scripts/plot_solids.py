@@ -99,7 +99,7 @@ def lines(axes, pattern, column, scale, x_scale, reference=None, reference_colum
 
 
 def blake_exact(r, t=1.6e-4, p0=1e6, r0=0.1, nu=0.25, E=62.5e9, rho=3000):
-    """Pressure and radial deviator; formulas in src/fv/exact_motion.hpp, strains by differences."""
+    """Pressure and radial deviator; formulas in src/mesh/exact_motion.hpp, strains by differences."""
     mu, lam = E / (2 * (1 + nu)), E * nu / ((1 + nu) * (1 - 2 * nu))
     c = math.sqrt((lam + 2 * mu) / rho)
     n, b = (1 - 2 * nu) / (1 - nu) * c / r0, math.sqrt(1 - 2 * nu) / (1 - nu) * c / r0

@@ -38,9 +38,10 @@ class Case:
 
 
 class Sweep:
-    def __init__(self, path, folder):
+    def __init__(self, path, folder, table=None):
+        """Of a file, or of a table in one (scripts/bench.py)."""
         self.path, self.folder = path, folder
-        table = read_toml(path, "sweep")
+        table = table or read_toml(path, "sweep")
         self.read(table)
         self.cases = self.combine(table.get("vary", {}), table.get("case", [{}]))
         self.keys = list(dict.fromkeys(key for case in self.cases for key in case.values))

@@ -85,6 +85,8 @@ std::vector<std::string> names_of(std::string_view key, const std::string& whole
   return names;
 }
 
+constexpr char removal = '~';  ///< "~time.scheme": as if the scene did not say it
+
 std::size_t first_equal_sign(std::string_view text) {
   char quote = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -139,7 +141,16 @@ void SceneText::parse(const std::string& text, const std::vector<std::string>& o
   walk("", &root);
 }
 
+void SceneText::remove(const std::string& text) {
+  const auto names = names_of(trim(std::string_view(text).substr(1)), text);
+  toml::table* table = &root;
+  for (std::size_t i = 0; i + 1 < names.size() && table; ++i) table = table->get_as<toml::table>(names[i]);
+  if (!table || table->erase(names.back()) == 0)
+    fail_override(text, "the scene does not say this", "drop the removal, or name a key or a table that it has");
+}
+
 void SceneText::override_with(const std::string& text) {
+  if (text.starts_with(removal)) return remove(text);
   const auto equal = first_equal_sign(text);
   if (equal == std::string::npos) fail_override(text, "is no key=value", "write for example time.step=\"25 ms\"");
   const auto names = names_of(trim(std::string_view(text).substr(0, equal)), text);

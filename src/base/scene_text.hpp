@@ -68,6 +68,7 @@ struct SceneText {
 
  private:
   void override_with(const std::string& text);
+  void remove(const std::string& text);
   void unknown(const std::string& table, const toml::key& key);
 };
 

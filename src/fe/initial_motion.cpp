@@ -20,19 +20,21 @@ void InitialMotion::bind(Section& s, const NamedMesh& mesh) {
   read_vector(s, "centre", centre, {.unit = "m", .doc = "a point of the axis of the spin"}, mesh);
   if (mesh.mesh && mesh.mesh->Dimension() == 2 && (spin[0] != 0 || spin[1] != 0))
     s.error("spin", "turns the body out of its plane", "give [0, 0, rate]");
+  motion.bind(s);
 }
 
 mfem::Vector InitialMotion::at_dofs(mfem::ParFiniteElementSpace& space) const {
-  mfem::VectorFunctionCoefficient motion(space.GetVDim(), [this](const mfem::Vector& X, mfem::Vector& v) {
-    std::array<double, 3> r{};  // plane bodies: z = 0
-    for (int i = 0; i < X.Size(); ++i) r[i] = X(i) - centre[i];
+  mfem::VectorFunctionCoefficient velocities(space.GetVDim(), [this](const mfem::Vector& X, mfem::Vector& v) {
+    Vec3 x{}, r{};  // plane bodies: z = 0
+    for (int i = 0; i < X.Size(); ++i) x[i] = X(i), r[i] = X(i) - centre[i];
+    const Vec3 named = motion.velocity_at(x);
     for (int i = 0; i < v.Size(); ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
-      v(i) = velocity[i] + spin[j] * r[k] - spin[k] * r[j];
+      v(i) = velocity[i] + spin[j] * r[k] - spin[k] * r[j] + named[i];
     }
   });
   mfem::ParGridFunction field(&space);
-  field.ProjectCoefficient(motion);
+  field.ProjectCoefficient(velocities);
   mfem::Vector v(space.GetTrueVSize());
   field.GetTrueDofs(v);
   return v;

@@ -1,6 +1,7 @@
-/// How a body moves when a run begins: as a rigid one, with its forces at once.
+/// How a body moves when a run begins: as a rigid one and by a named motion, with its forces at once.
 ///
-///   v_0(X) = velocity + spin x (X - centre),   M a_0 + f(u_0) = 0 at free dofs, a_0 = 0 where displacements are given
+///   v_0(X) = velocity + spin x (X - centre) + motion(X),   M a_0 + f(u_0) = 0 at free dofs, a_0 = 0 where
+///   displacements are given
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 
 #include "base/config.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/named_motion.hpp"
 
 namespace titin {
 
@@ -15,6 +17,7 @@ class MuscleSystem;
 
 struct InitialMotion {
   std::array<double, 3> velocity{}, spin{}, centre{};  // [m/s], [rad/s], [m]
+  NamedMotion motion;
   void bind(Section& s, const NamedMesh& mesh);
   mfem::Vector at_dofs(mfem::ParFiniteElementSpace& space) const;  ///< true dofs [m/s]
 };

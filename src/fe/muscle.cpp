@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "base/timers.hpp"
+#include "fe/displacement_errors.hpp"
 
 namespace titin {
 namespace {
@@ -53,6 +54,11 @@ void Muscle::start() {
   system_.accept_forces();
   const bool accelerates = config_.inertia == Inertia::dynamic && uses_acceleration(config_.integrator);
   integrator_.start(trial_, v, accelerates ? initial_acceleration(system_, mesh_.thickness, R) : trial_);
+}
+
+std::vector<Quantity> Muscle::errors() {
+  if (!config_.exact_motion) return {};
+  return displacement_errors(space_, displacement(), integrator_.v(), *config_.exact_motion, time_);
 }
 
 Newton& Muscle::newton() {

@@ -29,6 +29,7 @@ class Muscle : public Model {
 
   std::vector<Quantity> quantities() override { return quantities_; }
   std::vector<Quantity> conservation() override { return conservation_.list(); }
+  std::vector<Quantity> errors() override;
   std::string shown_quantity() const override { return history_.shown(); }
   void update_fields() override;
   const std::vector<Field>& fields() const override { return fields_.fields(); }

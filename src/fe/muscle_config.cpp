@@ -84,11 +84,12 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
   bind_formulation(root.section("muscle", "the implicit finite element formulation"), *this, mesh);
   bind_materials(root, mesh);
   bind_boundaries(root, mesh);
-  Section initial = root.section("initial", "the motion at the start: that of a rigid body");
+  Section initial = root.section("initial", "the motion at the start: that of a rigid body, and a named one");
   this->initial.bind(initial, mesh);
   for (const BoundaryConfig& boundary : boundaries)
     if (boundary.rail.given() && this->initial.spin != std::array<double, 3>{0, 0, 0})
       initial.error("spin", fmt::format("the plate at {} does not turn", boundary.name), "drop one of them");
+  exact_motion = ExactMotion::read(root.section("exact_motion", "a solution to compare with"));
   Section time = root.section("time");
   integrator.bind(time);
   if (inertia == Inertia::quasi_static && time.has("scheme"))

@@ -13,6 +13,7 @@
 #include "fe/observers.hpp"
 #include "fe/point_fields.hpp"
 #include "materials/material.hpp"
+#include "mesh/exact_motion.hpp"
 #include "mesh/mesh.hpp"
 #include "solve/integrator.hpp"
 #include "solve/newton.hpp"
@@ -41,6 +42,7 @@ struct MuscleConfig {
   std::map<int, std::string> material_of_region;  // by mesh attribute
   PointFields point_fields;
   InitialMotion initial;
+  std::shared_ptr<const ExactMotion> exact_motion;  // null unless the scene names one
   NewtonConfig newton;
   IntegratorConfig integrator;
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/parallel.hpp"
 #include "base/words.hpp"
@@ -90,19 +89,7 @@ void InitialConfig::bind(Section& s, const NamedMesh& mesh) {
                  "pressure's"});
   if (s.has("energy") && !(density > 0)) s.error("energy", "needs a density", "give the density of this start too");
   s.read("velocity", velocity, {.unit = "m/s", .doc = "of all motions this part"});
-  s.choose(
-      "motion", motion,
-      {{"uniform", Motion::uniform},
-       {"radial", Motion::radial},
-       {"twist", Motion::twist},
-       {"swing", Motion::swing},
-       {"bend", Motion::bend}},
-      {.doc =
-           "added to the velocity. radial: rate x / |x|; twist: rate sin(pi z / (2 length)) about z; swing: rate "
-           "(-sin cos, cos sin)(pi x / length, pi y / length); bend: rate times the first bending of a free bar along "
-           "x in [-length / 2, length / 2], along y"});
-  s.read("rate", rate, {.doc = "of the motion, in m/s (twist: 1/s)"});
-  s.read("length", length, {.unit = "m", .range = positive, .doc = "of the motion"});
+  motion.bind(s);
 }
 
 void InitialConfig::check_point(Section& s, mfem::ParMesh& mesh) const {
@@ -146,26 +133,8 @@ bool InitialConfig::holds(int region, const Vec3& x, const std::vector<Vec3>& co
 }
 
 Vec3 InitialConfig::velocity_at(const Vec3& x) const {
-  using std::cos, std::sin, std::sinh, std::cosh;
-  constexpr double pi = std::numbers::pi;
-  Vec3 v = velocity;
-  if (motion == Motion::radial) {
-    const double r = norm(x);
-    for (int i = 0; i < 3 && r > 0; ++i) v[i] += rate * x[i] / r;
-  } else if (motion == Motion::twist) {
-    const double spin = rate * sin(0.5 * pi * x[2] / length);
-    v[0] -= spin * x[1];
-    v[1] += spin * x[0];
-  } else if (motion == Motion::swing) {
-    const double a = pi * x[0] / length, b = pi * x[1] / length;
-    v[0] -= rate * sin(a) * cos(b);
-    v[1] += rate * cos(a) * sin(b);
-  } else if (motion == Motion::bend) {
-    // cosh(k) cos(k) = 1: the first mode of a bar with free ends (Timoshenko 1937, Vibration Problems, art. 37).
-    constexpr double k = 4.730040744862704;
-    const double s = k * (x[0] / length + 0.5), ratio = (cosh(k) - cos(k)) / (sinh(k) - sin(k));
-    v[1] += rate * (cosh(s) + cos(s) - ratio * (sinh(s) + sin(s)));
-  }
+  Vec3 v = motion.velocity_at(x);
+  for (int i = 0; i < 3; ++i) v[i] += velocity[i];
   return v;
 }
 

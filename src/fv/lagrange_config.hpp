@@ -9,9 +9,10 @@
 #include "fv/boundary.hpp"
 #include "fv/closure.hpp"
 #include "fv/exact_flow.hpp"
-#include "fv/exact_motion.hpp"
 #include "fv/fv_config.hpp"
+#include "mesh/exact_motion.hpp"
 #include "mesh/markers.hpp"
+#include "mesh/named_motion.hpp"
 
 namespace titin {
 
@@ -42,7 +43,6 @@ struct FlowBoundaryConfig {
 
 /// A start: everywhere, in regions, in a box or in a ball; a later one overrides those before it.
 struct InitialConfig {
-  enum class Motion { uniform, radial, twist, swing, bend };
   std::string name;
   std::vector<int> regions;  // attributes of the mesh; none: all
   bool has_lower = false, has_upper = false, has_radius = false, has_point = false;
@@ -51,8 +51,7 @@ struct InitialConfig {
   double density = 0, pressure = 0;  // of fluids
   double energy = 0;                 // internal, shared out by volume; 0: that of the pressure [J], in the plane [J/m]
   std::array<double, 3> velocity{};  // [m/s]
-  Motion motion = Motion::uniform;
-  double rate = 0, length = 1;  // of the named motions: [m/s] or [1/s], [m]
+  NamedMotion motion;                // added to it
   void bind(Section& s, const NamedMesh& mesh);
   /// In a cell of this region around x with these corners.
   bool holds(int region, const Vec3& x, const std::vector<Vec3>& corners) const;

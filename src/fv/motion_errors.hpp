@@ -1,8 +1,8 @@
 /// How far a solid is from an exact motion: norms over the body at rest.
 #pragma once
 
-#include "fv/exact_motion.hpp"
 #include "fv/scheme.hpp"
+#include "mesh/exact_motion.hpp"
 #include "solve/model.hpp"
 
 namespace titin {

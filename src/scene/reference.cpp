@@ -31,6 +31,7 @@ std::vector<double> weights(const std::vector<double>& times, std::size_t n) {
 void Reference::bind(Section& s) {
   s.read("history", file_,
          {.doc = "CSV with a column time [s] and others of history.csv, by name: run.json says how far off"});
+  s.read("columns", wanted_, {.doc = "names of its columns that are compared (default: all)"});
   const std::string path = s.existing_file("history", file_);
   if (path.empty()) return;
   const TextFile file = read_text_file(path);
@@ -47,9 +48,23 @@ void Reference::bind(Section& s) {
     table_.columns.erase(time);
     if (problem.empty() && table_.columns.empty()) problem = "has no column besides the time";
   }
+  if (problem.empty()) keep_wanted(s);
   if (!problem.empty())
     s.error("history", fmt::format("file {}: {}", in_quotes(file_), problem),
             "write a first line of names, such as time [s], volume [m^3], and numbers below it");
+}
+
+void Reference::keep_wanted(Section& s) {
+  if (wanted_.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& column : table_.columns) names.push_back(column.name);
+  for (const std::string& name : wanted_)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      s.error("columns", fmt::format("{} has no column {}", in_quotes(file_), in_quotes(name)),
+              fmt::format("it has {}", fmt::join(names, ", ")));
+  std::erase_if(table_.columns, [&](const auto& column) {
+    return std::find(wanted_.begin(), wanted_.end(), column.name) == wanted_.end();
+  });
 }
 
 void Reference::match(const std::vector<Quantity>& followed, Section s) {

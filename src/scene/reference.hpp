@@ -38,6 +38,7 @@ class Reference {
     std::size_t quantity;                // its place among what the run follows
     std::vector<double> wanted, values;  // at times_; at run_times_
   };
+  void keep_wanted(Section& s);
   struct Norms {
     double l2, max;
   };
@@ -45,6 +46,7 @@ class Reference {
   double largest(const std::string& unit, std::size_t rows) const;
 
   std::string file_;
+  std::vector<std::string> wanted_;  // names of columns; empty: all
   NumberTable table_;
   std::vector<Column> columns_;
   std::vector<double> times_, run_times_;  // [s]

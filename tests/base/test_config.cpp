@@ -215,6 +215,18 @@ TEST(Config, TakesOverridesInTheGrammarOfTheFile) {
   EXPECT_EQ(read(time_table, {"mesh.cells=2,3,4"}).cells, (std::vector{2, 3, 4}));
 }
 
+TEST(Config, TakesKeysOut) {
+  EXPECT_EQ(
+      errors(time_table, {"~time.end"}),
+      Messages{"block.toml:1:1: time.end: missing (end of the simulated time); add for example end = \"25 ms\" to "
+               "[time]"});
+  EXPECT_EQ(errors(time_table, {"~time.stp", "~a.b"}),
+            (Messages{"command line: \"~time.stp\": the scene does not say this; drop the removal, or name a key or a "
+                      "table that it has",
+                      "command line: \"~a.b\": the scene does not say this; drop the removal, or name a key or a table "
+                      "that it has"}));
+}
+
 TEST(Config, BlamesTheCommandLine) {
   EXPECT_EQ(errors(time_table, {"time.stp=1 s"}),
             Messages{"command line: time.stp: unknown key; did you mean \"step\"?"});

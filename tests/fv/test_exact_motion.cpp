@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fv/exact_motion.hpp"
+#include "mesh/exact_motion.hpp"
 
 namespace titin {
 namespace {

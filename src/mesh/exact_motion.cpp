@@ -1,4 +1,4 @@
-#include "fv/exact_motion.hpp"
+#include "mesh/exact_motion.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Runs the product over a table of settings and charts error against resolution, CPU time and memory.
+
+    scripts/bench.py                      lists the benches
+    scripts/bench.py swinging_plate       runs what is not in its table yet, then draws
+    scripts/bench.py swinging_plate --draw        only draws
+    scripts/bench.py swinging_plate --again "P1"  runs the sweeps whose name begins so again
+    scripts/bench.py --quick NAME...      the small cases, into a folder of work; asserts orders and the place of our defaults
+
+A bench is a file of configs/bench/:
+
+    title = "The swinging plate"
+    reference = "exact for small amplitudes"     # what the error is against; named on the chart
+    error = "velocity_L2"                        # of errors in run.json, or "COLUMN of history, largest" (smallest, last, variation)
+    label = "error of the velocity in L2"        # of the axis
+    exact = 0.0                                  # what is taken from it, where it is a value and no error yet
+    scale = 1.0                                  # what that is divided by
+    dimension = 2                                # of the cells: h = cells^(-1/dimension)
+    limit = 600                                  # [s] CPU time after which a run has failed
+    against = "h"                                # or "dt": the first chart's axis
+
+    [[sweep]]                                    # a curve: what scripts/sweep reads, and
+    name = "Q2/P1, Newmark"
+    default = true                               # optional: what a scene gets that says nothing
+    order = 1.8                                  # optional: asserted by --quick, at least
+    quick = 2                                    # optional: its first cases are part of --quick
+    scene = "../muscle/swinging_plate.toml"
+    set = ["time.scheme=newmark"]
+    vary."mesh.cells" = [[4, 4], [8, 8]]
+
+    [map]                                        # optional: a map of where methods work instead of curves
+    x = "fv.cfl"                                 # keys that the sweeps vary
+    y = "fv.predictor"                           # (or "sweep": one row for each)
+    degrades = 10                                # an error of this many times the best one of its row
+    or_above = 0.01                              # and, instead, whatever the best: an error above this
+
+Runs go one after the other (their CPU seconds are compared) into results/bench/NAME; rows into docs/verification/bench/NAME.csv, which is only
+appended to; the chart is docs/pictures/bench_NAME.png. Needs the Python libraries of python_requirements.txt.
+"""
+import argparse
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+from batch import ROOT, Problem, check_scene, guarded  # noqa: E402
+from bench_results import Bench, fitted_order, pareto_front, revision  # noqa: E402
+
+BENCHES = ROOT / "configs" / "bench"
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="scripts/bench.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", help="benches: files of configs/bench/ without .toml")
+    parser.add_argument("--draw", action="store_true", help="only draw what the tables have")
+    parser.add_argument("--again", metavar="SWEEP", help="run the sweeps whose name begins so again ('' for all)")
+    parser.add_argument("--quick", action="store_true", help="only small cases; asserts what must hold, writes nothing into docs")
+    parser.add_argument("--titin", default=str(ROOT / "build" / "bin" / "titin"), help="the program")
+    parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("results") / "bench", help="folder of the runs")
+    return parser.parse_args()
+
+
+def environment():
+    """What scripts/mpi_environment exports, and one thread a rank."""
+    lines = (HERE / "mpi_environment").read_text().splitlines()
+    words = [word for line in lines if line.startswith("export ") for word in line.split("#")[0].split()[1:]]
+    return {**os.environ, "OPENBLAS_NUM_THREADS": "1", **dict(word.split("=", 1) for word in words)}
+
+
+def open_bench(name, options):
+    path = BENCHES / f"{name}.toml"
+    if not path.exists():
+        there = ", ".join(sorted(p.stem for p in BENCHES.glob("*.toml")))
+        raise Problem(f"there is no bench {name}; there are {there}")
+    return Bench(path, options.work.absolute() / name)
+
+
+def wanted(bench, options, rows):
+    """What is not in the table, or is asked for again."""
+    for line in bench.lines:
+        again = options.again is not None and line.name.startswith(options.again)
+        for case in line.cases(options.quick):
+            if again or options.quick or (line.name, line.key(case)) not in rows:
+                yield line, case
+
+
+def run(bench, line, case, options):
+    line.sweep.folder.mkdir(parents=True, exist_ok=True)
+    folder = line.sweep.folder / case.name
+    command = [options.titin, "run", *line.sweep.arguments(case), "-o", str(folder), "--overwrite", "-q"]
+    def limited():
+        resource.setrlimit(resource.RLIMIT_CPU, (bench.limit, bench.limit))
+
+    with open(line.sweep.file(case, "log"), "w") as log:
+        subprocess.run(command, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env=environment(), preexec_fn=limited)
+
+
+def run_all(bench, options, file):
+    rows = bench.rows(file)
+    todo = list(wanted(bench, options, rows))
+    problems = []
+    for line, case in todo:  # all mistakes before anything runs
+        try:
+            check_scene(options.titin, line.sweep.arguments(case))
+        except Problem as problem:
+            problems.append(f"{line.name}, {line.key(case)}: {problem}")
+    if problems:
+        raise Problem("\n".join(problems))
+    for n, (line, case) in enumerate(todo, 1):
+        run(bench, line, case, options)
+        row = bench.row(line, case)
+        bench.append(row, file)
+        print(f"[bench] {n}/{len(todo)} {line.name}: {row.status}, error {row.error:.3g}, {row.values['cpu_seconds']} CPU s", flush=True)
+
+
+def check_quick(bench, rows):
+    """What must hold of the small cases: orders, and that our defaults are on the front of error against counted work."""
+    wrong = []
+    for line in bench.lines:
+        of_line = bench.of(line, rows, quick=True)
+        order = fitted_order(bench, of_line)
+        if line.quick and any(row.status != "finished" for row in of_line) and not bench.map:
+            wrong.append(f"{bench.path.stem}, {line.name}: a run did not finish")
+        if line.quick and line.order is not None and not order >= line.order:
+            wrong.append(f"{bench.path.stem}, {line.name}: order {order:.2f}, and not {line.order} or more")
+        if line.quick and line.is_default and not bench.map:
+            same = [r for other in bench.lines for r in bench.of(other, rows, quick=True) if r.values["model"] == of_line[0].values["model"]]
+            if not any(row in of_line for row in pareto_front(same, lambda r: r.counted_work)):
+                wrong.append(f"{bench.path.stem}, {line.name}: our default is nowhere on the front of error against work")
+    return wrong
+
+
+def main():
+    options = parse_arguments()
+    if not options.names:
+        for path in sorted(BENCHES.glob("*.toml")):
+            print(f"{path.stem:24} {Bench(path, options.work).title}")
+        return 0
+    if not options.quick:
+        from environment import enter
+
+        enter()
+    wrong = []
+    for name in options.names:
+        bench = open_bench(name, options)
+        file = bench.work / "quick.csv" if options.quick else bench.file
+        if options.quick:
+            file.unlink(missing_ok=True)
+        if not options.draw:
+            run_all(bench, options, file)
+        if options.quick:
+            wrong += check_quick(bench, bench.rows(file))
+        else:
+            from bench_charts import draw
+
+            print(f"[bench] {draw(bench, bench.rows(file))} at {revision()}")
+    for line in wrong:
+        print(f"[bench] {line}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+guarded("bench", main)

@@ -1,0 +1,133 @@
+// What advise is made of: probes, the facts of a scene, and proposals whose answer is known.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/config.hpp"
+#include "base/log.hpp"
+#include "base/parallel.hpp"
+#include "scene/advise.hpp"
+#include "scene/probe.hpp"
+#include "scene/scene_facts.hpp"
+
+namespace titin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Uniform: one cell is exact. Held between z- and z+: plane. Slow: without inertia.
+const char* const uniform_block = R"(
+model = "muscle"
+[mesh]
+box = "20, 10, 10 mm"
+cells = [4, 2, 2]
+[time]
+end = "1 s"
+step = "50 ms"
+scheme = "newmark"
+[materials.gel]
+density = "1000 kg/m^3"
+volumetric = {law = "simo", bulk_modulus = "200 kPa"}
+terms.matrix = {law = "neo_hookean", mu = "100 kPa"}
+[boundary."x-"]
+displacement.x = "0 mm"
+[boundary."x+"]
+displacement.x = {time = "0, 1 s", value = "0, 3 mm"}
+[boundary."y-"]
+displacement.y = "0 mm"
+[boundary."z-"]
+displacement.z = "0 mm"
+[boundary."z+"]
+displacement.z = "0 mm"
+)";
+
+class Advice : public testing::Test {
+ protected:
+  fs::path folder;
+  std::string scene;
+  void SetUp() override {
+    logging::set_level(logging::Level::quiet);
+    folder = fs::path(testing::TempDir()) / ("titin_advise_np" + std::to_string(ranks()));
+    scene = (folder / "block.toml").string();
+    if (is_root()) {
+      fs::remove_all(folder);
+      fs::create_directories(folder);
+      std::ofstream(scene) << uniform_block;
+    }
+    any_of(false);
+  }
+  void TearDown() override {
+    any_of(false);
+    if (is_root()) fs::remove_all(folder);
+  }
+  std::string proposed(AdviseOptions options) const {
+    options.scene_file = scene;
+    options.apply = (folder / "proposed.toml").string();
+    advise(options);
+    any_of(false);
+    std::stringstream text;
+    text << std::ifstream(options.apply).rdbuf();
+    return text.str();
+  }
+};
+
+TEST_F(Advice, ProbesFollowAQuantity) {
+  const Probe fine = probe(scene, {"time.step=10 ms"}, "reaction_x+_x");
+  const Probe coarse = probe(scene, {"time.step=0.1 s"}, "reaction_x+_x");
+  EXPECT_EQ(fine.times.size(), 101u);
+  EXPECT_EQ(fine.steps, 100);
+  EXPECT_EQ(fine.order, 2);
+  EXPECT_EQ(difference(fine, fine), 0);
+  EXPECT_LT(difference(coarse, fine), 1e-2) << "slow: inertia hardly matters";
+  EXPECT_NEAR(fine.values.back(), fine.largest, 1e-12 * fine.largest);
+}
+
+TEST_F(Advice, SaysWhichQuantitiesThereAre) {
+  try {
+    probe(scene, {}, "reaction_x+_q");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.messages().front(), "this run follows no \"reaction_x+_q\"; did you mean \"reaction_x+_x\"?");
+  }
+  EXPECT_THROW(advise({.scene_file = scene,
+                       .overrides = {"muscle.inertia=quasi-static", "~time.scheme"},
+                       .quantity = "reaction_x+_y"}),
+               InputError)
+      << "zero: free to slide";
+}
+
+TEST_F(Advice, ProposesWhatAUniformStateNeeds) {
+  const std::string text = proposed({.quantity = "reaction_x+_x", .tolerance = 0.05});
+  EXPECT_NE(text.find("inertia = \"quasi-static\""), std::string::npos) << text;
+  EXPECT_NE(text.find("box = \"0.02, 0.01 m\""), std::string::npos) << "plane\n" << text;
+  EXPECT_NE(text.find("cells = [2, 1]"), std::string::npos) << text;
+  const Probe truth = probe(scene, {"time.step=10 ms"}, "reaction_x+_x");
+  const Probe cheap = probe((folder / "proposed.toml").string(), {}, "reaction_x+_x");
+  EXPECT_LT(difference(cheap, truth), 0.05);
+  EXPECT_LT(cheap.unknowns * cheap.steps, truth.unknowns * truth.steps / 20);
+}
+
+TEST_F(Advice, KeepsInertiaWhereItMatters) {
+  const std::string text = proposed({.overrides = {"time.end=1 ms", "time.step=20 us",
+                                                   "boundary.\"x+\".displacement.x={time "
+                                                   "= \"0, 1 ms\", value = \"0, 3 mm\"}"},
+                                     .quantity = "reaction_x-_x",
+                                     .tolerance = 0.1});
+  EXPECT_NE(text.find("inertia = \"dynamic\""), std::string::npos) << "a wave takes 0.9 ms along it\n" << text;
+}
+
+TEST(SceneFacts, ReadsSettings) {
+  const SceneFacts facts(
+      {"mesh.box = \"0.02, 0.01 m\"", "mesh.cells = [4, 2]", "muscle.inertia = \"dynamic\"", "time.step = \"0.05 s\""});
+  EXPECT_EQ(facts.numbers("mesh.box"), (std::vector{0.02, 0.01}));
+  EXPECT_EQ(facts.numbers("mesh.cells"), (std::vector{4.0, 2.0}));
+  EXPECT_EQ(facts.text("muscle.inertia"), "dynamic");
+  EXPECT_EQ(facts.number("time.step"), 0.05);
+  EXPECT_TRUE(std::isnan(facts.number("time.end")));
+  EXPECT_EQ(facts.below("mesh."), (std::vector<std::string>{"mesh.box", "mesh.cells"}));
+}
+
+}  // namespace
+}  // namespace titin
