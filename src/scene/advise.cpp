@@ -39,20 +39,25 @@ Overrides joined(Overrides a, const Overrides& b) {
 
 std::string percent(double x) { return fmt::format("{:.2g} %", 100 * x); }
 
-/// Cells along the edges of a box, or refinements of a file.
+/// Cells along the edges of a box, or refinements of a file; elements or masses of a rod.
 struct MeshChoice {
-  std::vector<int> cells;  // empty: from a file
+  std::string key = "mesh.cells";  // "": one element without mass, nothing to choose
+  std::vector<int> cells;          // empty: from a file
   int refine = 0;
   Overrides overrides() const {
+    if (key.empty()) return {};
     if (cells.empty()) return {fmt::format("mesh.refine={}", refine)};
+    if (key != "mesh.cells") return {fmt::format("{}={}", key, cells[0])};
     return {fmt::format("mesh.cells=[{}]", fmt::join(cells, ", "))};
   }
   std::string words() const {
+    if (key.empty()) return "one element";
     return cells.empty() ? count(refine, "refinement") : fmt::format("{} cells", fmt::join(cells, " x "));
   }
   std::optional<MeshChoice> halved() const {
     MeshChoice half = *this;
-    if (cells.empty()) return refine > 0 ? std::optional(MeshChoice{{}, refine - 1}) : std::nullopt;
+    if (cells.empty()) --half.refine;
+    if (cells.empty()) return refine > 0 ? std::optional(half) : std::nullopt;
     for (int& n : half.cells) n = (n + 1) / 2;
     return half.cells == cells ? std::nullopt : std::optional(half);
   }
@@ -99,9 +104,14 @@ class Adviser {
         facts_(scene_.settings),
         quantity_(options.quantity.empty() ? scene_.model->shown_quantity() : options.quantity),
         explicit_(scene_.clock.by_stability) {
-    for (const double n : facts_.numbers("mesh.box").empty() ? std::vector<double>{} : facts_.numbers("mesh.cells"))
-      asked_.cells.push_back(static_cast<int>(n));
-    asked_.refine = static_cast<int>(facts_.number("mesh.refine"));
+    if (is_rod()) {
+      const std::string kind = facts_.text("rod.kind");
+      asked_.key = kind == "continuum" ? "rod.cells" : kind == "chain" ? "rod.masses" : "";
+      asked_.cells = {asked_.key.empty() ? 1 : whole(asked_.key)};
+    } else if (facts_.has("mesh.box")) {
+      for (const double n : facts_.numbers("mesh.cells")) asked_.cells.push_back(static_cast<int>(n));
+    }
+    if (asked_.cells.empty()) asked_.refine = static_cast<int>(facts_.number("mesh.refine"));
     if (!facts_.below("averages.").empty() && !quantity_.starts_with("mean_")) common_.push_back("~averages");
   }
 
@@ -117,6 +127,16 @@ class Adviser {
   }
 
  private:
+  /// What the scene says, or the default of a key that it only asks about.
+  int whole(const std::string& key) const {
+    if (facts_.has(key)) return static_cast<int>(facts_.number(key));
+    for (const KeyRecord& record : scene_keys())
+      if (record.path == key) return std::stoi(record.default_value);
+    return 1;
+  }
+
+  bool is_rod() const { return facts_.text("model") == "rod"; }
+
   Probe run(const Overrides& more) {
     return probe(options_.scene_file, joined(joined(options_.overrides, common_), more), quantity_);
   }
@@ -154,6 +174,12 @@ class Adviser {
       if (says("time.scheme")) rest.push_back("~time.scheme");
       list.emplace_back("without inertia and rates", rest);
     }
+    if (is_rod() && is("rod.inertia", "dynamic") && !is("rod.kind", "massless")) {
+      Overrides rest{"rod.kind=massless"};
+      for (const char* key : {"rod.cells", "rod.masses", "rod.order", "rod.spacing", "time.scheme"})
+        if (says(key)) rest.push_back(fmt::format("~{}", key));
+      list.emplace_back("without mass", rest);
+    }
     if (is("muscle.element", "three_field"))
       list.emplace_back("displacement alone", Overrides{"muscle.element=displacement"});
     if (const Overrides plane = in_the_plane(); !plane.empty()) list.emplace_back("in the plane", plane);
@@ -188,6 +214,7 @@ class Adviser {
   Overrides cells_for(const Simplification& s, const MeshChoice& mesh) const {
     MeshChoice plane = mesh;
     if (s.what == "in the plane") plane.cells.resize(2);
+    if (s.what == "without mass") plane.key = "";
     return plane.overrides();
   }
 
@@ -200,6 +227,7 @@ class Adviser {
       s.taken = s.problem.empty() && s.changes <= left && s.cost < 1;
       if (s.taken) left -= s.changes, taken_ = joined(taken_, s.overrides), simplified_ += s.changes;
       is_plane_ = is_plane_ || (s.taken && s.what == "in the plane");
+      is_massless_ = is_massless_ || (s.taken && s.what == "without mass");
       const std::string why = s.taken            ? "take it"
                               : s.changes > left ? "no: more than its share"
                                                  : "no: it saves nothing";
@@ -208,8 +236,10 @@ class Adviser {
       else
         logging::info("{:<34}{:>14}{:>12}  no: {}", s.what, "-", "-", s.problem);
     }
-    if (is_plane_)
-      for (MeshChoice* mesh : {&mesh_, &asked_}) mesh->cells.resize(2);
+    for (MeshChoice* mesh : {&mesh_, &asked_}) {
+      if (is_plane_) mesh->cells.resize(2);
+      if (is_massless_) mesh->key = "", mesh->cells = {1};
+    }
     together_ = taken_.empty() ? base_ : run(joined(taken_, mesh_.overrides()));
   }
 
@@ -227,10 +257,11 @@ class Adviser {
 
   // ---- order, mesh and step
 
-  const char* order_key() const { return explicit_ ? "fv.order" : "muscle.order"; }
+  const char* order_key() const { return explicit_ ? "fv.order" : is_rod() ? "rod.order" : "muscle.order"; }
+  bool has_order() const { return !is_rod() || mesh_.key == "rod.cells"; }
 
   void choose_order() {
-    const int own = static_cast<int>(facts_.number(order_key()));
+    const int own = has_order() ? whole(order_key()) : 1;
     std::vector<int> orders{own};
     if (own > 1) orders.push_back(own - 1);
     for (const int order : orders) {
@@ -260,7 +291,7 @@ class Adviser {
     const double steps = explicit_ ? finer : scene_.clock.step / c.step;
     c.cost = fine.cpu_seconds * std::pow(unknowns, cost_exponent) * std::max(steps, 1 / longest_step);
     logging::info("{:<34}{:>14}{:>11.2f}x  rate {:.1f}: {} for {}",
-                  fmt::format("mesh, with {} = {}", order_key(), c.order), percent(at_probe),
+                  has_order() ? fmt::format("mesh, with {} = {}", order_key(), c.order) : "elements", percent(at_probe),
                   fine.cpu_seconds / base_.cpu_seconds, c.rate, c.mesh.words(), percent(c.mesh_error));
   }
 
@@ -332,7 +363,7 @@ class Adviser {
   /// Steps of the explicit formulation: c dt = 0.4 h, c^2 = K / rho of the stiffest material.
   void mention_explicit(const Candidate& best) const {
     const auto box = facts_.numbers("mesh.box");
-    if (explicit_ || best.mesh.cells.empty()) return;
+    if (explicit_ || best.mesh.cells.empty() || is_rod()) return;
     double fastest = 0;
     for (const std::string& key : facts_.below("materials.")) {
       const auto at = key.find(".volumetric.bulk_modulus");
@@ -371,7 +402,7 @@ class Adviser {
   std::vector<Simplification> list_;
   std::vector<Candidate> candidates_;
   double simplified_ = 0;
-  bool is_plane_ = false;
+  bool is_plane_ = false, is_massless_ = false;
 };
 
 }  // namespace
