@@ -436,7 +436,8 @@ time.spectral_radius
 time.step
 time.tolerance
 time.velocity
-title'
+title
+torques.<NAME>'
 _titin_choices='boundary.<NAME>.clamp true false
 boundary.<NAME>.exact none pressure velocity
 boundary.<NAME>.obstacle.contact slip stick

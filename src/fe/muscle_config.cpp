@@ -106,6 +106,7 @@ void MuscleConfig::bind(Section& root, const NamedMesh& mesh) {
   body.read("scale", body_scale, {.doc = "factor of the acceleration, constant or in time"});
   markers = read_markers(root, mesh);
   averages = read_averages(root, mesh);
+  bind_torques(root, mesh);
   for (const AverageConfig& average : averages)
     if (materials.count(average.name))
       root.section("averages").error(average.name, "a material has this name, and means under it", "choose another");
@@ -148,6 +149,17 @@ void MuscleConfig::bind_boundaries(Section& root, const NamedMesh& mesh) {
     link.bind(s, mesh);
     links.push_back(link);
   });
+}
+
+/// Moments are those of reactions: somewhere something has to be prescribed.
+void MuscleConfig::bind_torques(Section& root, const NamedMesh& mesh) {
+  std::vector<std::string> names;
+  for (const BoundaryConfig& boundary : boundaries) names.push_back(boundary.name);
+  torques = read_torques(root, names, mesh);
+  for (const TorqueConfig& torque : torques)
+    if (torque.index >= 0 && !boundaries[torque.index].constrained())
+      root.section("torques").error(torque.boundary, "no displacement is prescribed there, so that nothing reacts",
+                                    "drop it, or name a boundary with clamp, displacement or rail");
 }
 
 void MuscleConfig::bind_materials(Section& root, const NamedMesh& mesh) {

@@ -10,11 +10,12 @@
 #include "fe/initial_motion.hpp"
 #include "fe/links.hpp"
 #include "fe/loads.hpp"
-#include "fe/observers.hpp"
 #include "fe/point_fields.hpp"
 #include "materials/material.hpp"
+#include "mesh/averages.hpp"
 #include "mesh/exact_motion.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/torques.hpp"
 #include "solve/integrator.hpp"
 #include "solve/newton.hpp"
 
@@ -38,6 +39,7 @@ struct MuscleConfig {
   std::vector<LinkConfig> links;
   std::vector<MarkerConfig> markers;
   std::vector<AverageConfig> averages;
+  std::vector<TorqueConfig> torques;
   std::map<std::string, std::shared_ptr<const Material>> materials;
   std::map<int, std::string> material_of_region;  // by mesh attribute
   PointFields point_fields;
@@ -57,6 +59,7 @@ struct MuscleConfig {
  private:
   void bind_boundaries(Section& root, const NamedMesh& mesh);
   void bind_materials(Section& root, const NamedMesh& mesh);
+  void bind_torques(Section& root, const NamedMesh& mesh);
 };
 
 }  // namespace titin

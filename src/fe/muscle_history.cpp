@@ -15,7 +15,7 @@ const char* const component_name[] = {"x", "y", "z"};
 
 }  // namespace
 
-MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system), attachments_(system) {
+MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system), attachments_(system), torques_(system) {
   const MuscleConfig& config = system.config();
   int max_attribute = 0;
   for (const auto& [attribute, name] : config.material_of_region) max_attribute = std::max(max_attribute, attribute);
@@ -242,6 +242,7 @@ std::vector<Quantity> MuscleHistory::quantities() const {
   for (std::size_t b = 0; b < boundaries.size(); ++b)
     for (int i = 0; i < system_.tables().dimension() && boundaries[b].constrained(); ++i)
       list.push_back(reaction(static_cast<int>(b), i));
+  torques_.list(u_, forces_, list);
   const double kinetic = sum(kinetic_), volumetric = sum(volumetric_);
   list.push_back({"energy_kinetic", "J", kinetic});
   list.push_back({"energy_volumetric", "J", volumetric});

@@ -15,6 +15,7 @@
 
 #include "fe/attachment_history.hpp"
 #include "fe/muscle_system.hpp"
+#include "fe/reaction_torques.hpp"
 #include "solve/model.hpp"
 
 namespace titin {
@@ -58,6 +59,7 @@ class MuscleHistory {
 
   MuscleSystem& system_;
   AttachmentHistory attachments_;
+  ReactionTorques torques_;
   std::vector<TermAccount> terms_;
   std::vector<std::vector<int>> terms_of_region_;  // [attribute][term of the material] -> account
   std::vector<Mean> means_;

@@ -272,18 +272,20 @@ void Boundary<D>::add_forces(const std::vector<Vector<D>>& v, std::vector<Force>
 }
 
 template <int D>
-Vector<3> Boundary<D>::moment(const std::vector<Vector<D>>& x) const {
+Vector<3> Boundary<D>::moment(int condition, const Vector<3>& point, const std::vector<Vector<D>>& x) const {
   Vector<3> sum{};
-  const auto spatial = [](const Vector<D>& a) {
-    Vector<3> b{};
-    std::copy(a.begin(), a.end(), b.begin());
-    return b;
+  const auto add = [&](int node, const Vector<D>& at_node) {
+    Vector<3> arm{}, force{};
+    std::copy(at_node.begin(), at_node.end(), force.begin());
+    for (int i = 0; i < D; ++i) arm[i] = x[node][i] - point[i];
+    accumulate(sum, 1, cross(arm, force));
   };
-  for (std::size_t k = 0; k < rules_.size(); ++k) {
-    Vector<D> force = load_[k];
-    accumulate(force, 1, rules_[k].reaction);
-    accumulate(sum, 1, cross(spatial(x[rules_[k].node]), spatial(force)));
-  }
+  for (const LoadedFace& loaded : faces_)
+    for (int node : mesh_.boundary[loaded.face].nodes)
+      if (loaded.condition == condition) add(node, loaded.share);
+  for (const NodeRules& rules : rules_)
+    for (int k = 0; k < rules.share_count; ++k)
+      if (rules.shares[k].first == condition) add(rules.node, rules.shares[k].second);
   return sum;
 }
 

@@ -83,8 +83,8 @@ class Boundary {
   /// Of each condition over the step just taken: mean force and power; v are the nodes' velocities, M and b those that
   /// gave them. This rank's part: sum over ranks.
   void add_forces(const std::vector<Vector<D>>& v, std::vector<Force>& of_condition) const;
-  /// Moment of all forces about the origin [N m], this rank's part; about z alone in the plane.
-  Vector<3> moment(const std::vector<Vector<D>>& x) const;
+  /// Moment of a condition's forces about a point [N m], with nodes at x; this rank's part. About z alone in the plane.
+  Vector<3> moment(int condition, const Vector<3>& point, const std::vector<Vector<D>>& x) const;
 
   const std::vector<BoundaryCondition<D>>& conditions() const { return conditions_; }
   const std::vector<Mirrors<D>>& mirrors() const { return mirrors_; }

@@ -36,7 +36,8 @@ Lagrange<D>::Lagrange(NamedMesh mesh, LagrangeConfig config)
       cells_(*mesh_.mesh),
       exchange_(*mesh_.mesh, cells_),
       scheme_(cells_, exchange_, config_.fv, conditions(), start()),
-      history_(scheme_, config_.markers),
+      history_(scheme_, config_.markers, config_.torques),
+      means_(scheme_, config_.averages),
       fields_(*mesh_.mesh, scheme_) {}
 
 template <int D>
@@ -148,6 +149,13 @@ void Lagrange<D>::accept() {
   time_ += dt_;
   longest_dt_ = std::max(longest_dt_, scheme_.largest_dt());
   history_.follow(dt_);
+}
+
+template <int D>
+std::vector<Quantity> Lagrange<D>::quantities() {
+  std::vector<Quantity> list = history_.quantities(time_);
+  means_.list(time_, list);
+  return list;
 }
 
 template <int D>

@@ -6,6 +6,7 @@
 #include "fv/lagrange_config.hpp"
 #include "fv/lagrange_fields.hpp"
 #include "fv/lagrange_history.hpp"
+#include "fv/lagrange_means.hpp"
 #include "solve/model.hpp"
 
 namespace titin {
@@ -24,7 +25,7 @@ class Lagrange final : public Model {
   double largest_dt() const override { return scheme_.largest_dt(); }
 
   std::vector<double> kinks() const override { return config_.kinks(); }
-  std::vector<Quantity> quantities() override { return history_.quantities(time_); }
+  std::vector<Quantity> quantities() override;
   std::vector<Quantity> conservation() override { return history_.conservation(); }
   std::vector<Quantity> errors() override;
   std::string shown_quantity() const override { return "energy_kinetic"; }
@@ -50,6 +51,7 @@ class Lagrange final : public Model {
   NodeExchange exchange_;
   FlowScheme<D> scheme_;
   LagrangeHistory<D> history_;
+  LagrangeMeans<D> means_;
   LagrangeFields<D> fields_;
   double time_ = 0, dt_ = 0;  // of the accepted state; of the step being tried
   double longest_dt_ = 0;     // that cells have allowed so far [s]

@@ -170,6 +170,10 @@ void LagrangeConfig::bind(Section& root, const NamedMesh& mesh) {
     initial.push_back(start);
   });
   markers = read_markers(root, mesh);
+  averages = read_averages(root, mesh);
+  std::vector<std::string> names;
+  for (const FlowBoundaryConfig& boundary : boundaries) names.push_back(boundary.name);
+  torques = read_torques(root, names, mesh);
   if (!root.describing() && mesh.mesh) check_start(root);
 }
 

@@ -10,9 +10,11 @@
 #include "fv/closure.hpp"
 #include "fv/exact_flow.hpp"
 #include "fv/fv_config.hpp"
+#include "mesh/averages.hpp"
 #include "mesh/exact_motion.hpp"
 #include "mesh/markers.hpp"
 #include "mesh/named_motion.hpp"
+#include "mesh/torques.hpp"
 
 namespace titin {
 
@@ -69,6 +71,8 @@ struct LagrangeConfig {
   std::vector<FlowBoundaryConfig> boundaries;
   std::vector<InitialConfig> initial;
   std::vector<MarkerConfig> markers;
+  std::vector<AverageConfig> averages;
+  std::vector<TorqueConfig> torques;
   std::shared_ptr<const ExactFlow> exact;
   std::shared_ptr<const ExactMotion> exact_motion;  // of solids
   void bind(Section& root, const NamedMesh& mesh);

@@ -30,9 +30,11 @@ Vec3 spatial(const Vector<D>& a) {
 }  // namespace
 
 template <int D>
-LagrangeHistory<D>::LagrangeHistory(const FlowScheme<D>& scheme, const std::vector<MarkerConfig>& markers)
+LagrangeHistory<D>::LagrangeHistory(const FlowScheme<D>& scheme, const std::vector<MarkerConfig>& markers,
+                                    const std::vector<TorqueConfig>& torques)
     : scheme_(scheme), forces_(scheme.boundary().conditions().size()) {
   for (const MarkerConfig& marker : markers) take_marker(marker);
+  for (const TorqueConfig& torque : torques) torques_.push_back({torque, {}});
   start_ = now_ = kept();
   energy_scale_ = std::abs(start_.energy);
   momentum_scale_ = std::sqrt(2 * start_.mass * start_.kinetic);
@@ -90,11 +92,26 @@ void LagrangeHistory<D>::follow(double dt) {
     accumulate(impulse_, dt, forces_[k].force);
     work_ += dt * forces_[k].power;
   }
+  follow_torques(dt);
   now_ = kept();
   energy_scale_ = std::max(energy_scale_, std::abs(now_.energy));
   momentum_scale_ = std::max(momentum_scale_, std::sqrt(2 * now_.mass * now_.kinetic));
   energy_error_ = std::max(energy_error_, std::abs(now_.energy - start_.energy - work_));
   momentum_error_ = std::max(momentum_error_, norm(difference(difference(now_.momentum, start_.momentum), impulse_)));
+}
+
+/// Forces are those of the step: they act where nodes were in its middle.
+template <int D>
+void LagrangeHistory<D>::follow_torques(double dt) {
+  if (torques_.empty()) return;
+  std::vector<Vector<D>> middle = scheme_.state().x;
+  for (std::size_t p = 0; p < middle.size(); ++p) accumulate(middle[p], -0.5 * dt, scheme_.state().v[p]);
+  for (Torque& torque : torques_) {
+    const Vec3 part = scheme_.boundary().moment(torque.config.index, torque.config.point, middle);
+    std::vector<double> all(part.begin(), part.end());
+    sum(all);
+    std::copy_n(all.begin(), 3, torque.moment.begin());
+  }
 }
 
 template <int D>
@@ -137,6 +154,10 @@ void LagrangeHistory<D>::add_boundaries(std::vector<Quantity>& list) const {
     for (int i = 0; i < D; ++i)
       list.push_back({fmt::format("force_{}_{}", scheme_.boundary().conditions()[k].name, axes[i]), extensive<D>("N"),
                       forces_[k].force[i]});
+  for (const Torque& torque : torques_)
+    for (int i = first_torque_axis(D); i < 3; ++i)
+      list.push_back(
+          {fmt::format("torque_{}_{}", torque.config.boundary, axes[i]), extensive<D>("N m"), torque.moment[i]});
 }
 
 template <int D>

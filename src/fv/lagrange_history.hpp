@@ -14,7 +14,8 @@ template <int D>
 class LagrangeHistory {
  public:
   /// Collective.
-  LagrangeHistory(const FlowScheme<D>& scheme, const std::vector<MarkerConfig>& markers);
+  LagrangeHistory(const FlowScheme<D>& scheme, const std::vector<MarkerConfig>& markers,
+                  const std::vector<TorqueConfig>& torques);
 
   /// Takes in the step that was just accepted. Collective.
   void follow(double dt);
@@ -36,7 +37,12 @@ class LagrangeHistory {
     int cell = -1;                      // -1: another rank's
     std::array<double, D + 1> share{};  // of the cell's nodes
   };
+  struct Torque {
+    TorqueConfig config;
+    Vec3 moment{};  // of the last step, all ranks [N m]
+  };
   Kept kept() const;
+  void follow_torques(double dt);
   void take_marker(const MarkerConfig& config);
   void add_energies(double time, std::vector<Quantity>& list) const;
   void add_boundaries(std::vector<Quantity>& list) const;
@@ -46,6 +52,7 @@ class LagrangeHistory {
 
   const FlowScheme<D>& scheme_;
   std::vector<Marker> markers_;
+  std::vector<Torque> torques_;
   std::vector<typename Boundary<D>::Force> forces_;  // of the last step, by condition, all ranks
   Kept start_, now_;
   Vector<D> impulse_{};  // of all boundaries since the start [N s]

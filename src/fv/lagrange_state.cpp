@@ -60,6 +60,8 @@ void LagrangeHistory<D>::walk(StateWalk& walk) {
     for (double& x : force.force) all.push_back(&x);
     all.push_back(&force.power);
   }
+  for (auto& torque : torques_)
+    for (double& x : torque.moment) all.push_back(&x);
   std::vector<double> values;
   for (const double* x : all) values.push_back(*x);
   walk.common("accounts", values);

@@ -15,8 +15,8 @@ namespace titin {
 namespace {
 
 /// Tables of whole scenes that say nothing about a point.
-constexpr const char* of_scenes[] = {"title", "model",   "mesh",     "time",   "output", "muscle",  "lagrange",
-                                     "body",  "markers", "averages", "solver", "test",   "boundary"};
+constexpr const char* of_scenes[] = {"title", "model",   "mesh",     "time",   "output", "muscle",   "lagrange",
+                                     "body",  "markers", "averages", "solver", "test",   "boundary", "torques"};
 const std::string the_material = "materials.material";
 
 std::string first_word(const std::string& key) { return key.substr(0, key.find_first_of(".=[ ")); }

@@ -48,6 +48,8 @@ pressure = {time = "0, 10 ms", value = "0, 2 kPa"}
 wall = {point = "0, -0.1, 0 mm", normal = [0, 1, 0], penalty = "50 MPa/m", gap_tolerance = "10 um"}
 [markers]
 tip = "20, 5, 5 mm"
+[torques]
+"x-" = "3, -2, 1 mm"
 [output]
 fields = false
 )";
@@ -89,6 +91,11 @@ terms.matrix = {law = "neo_hookean", mu = "200 kPa"}
 wall = true
 [boundary."x+"]
 pressure = "50 kPa"
+[torques]
+"x-" = "3, -2, 1 mm"
+[averages.front]
+lower = "10, 0, 0 mm"
+upper = "20, 10, 10 mm"
 [output]
 fields = false
 )";

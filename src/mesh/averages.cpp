@@ -1,4 +1,4 @@
-#include "fe/observers.hpp"
+#include "mesh/averages.hpp"
 
 #include <fmt/format.h>
 
