@@ -393,6 +393,7 @@ output.every
 output.fields
 output.format
 output.history_every
+output.history_hdf5
 output.interval
 output.jumps
 output.precision
@@ -478,6 +479,7 @@ muscle.fibre_rate stretch_difference velocity_gradient
 muscle.inertia dynamic quasi-static
 output.fields true false
 output.format vtu vtkhdf vtkhdf_transient
+output.history_hdf5 true false
 output.jumps nodes means kept
 output.precision single double
 rod.inertia dynamic quasi-static

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// Files that a run writes, as paths inside its folder.
 const std::regex& ours() {
   static const std::regex names(
-      R"((resolved\.toml|run\.log|run\.json|history\.csv)(\.part)?|fields/fields\.pvd(\.part)?|)"
+      R"((resolved\.toml|run\.log|run\.json|history\.csv|history\.h5)(\.part)?|fields/fields\.pvd(\.part)?|)"
       R"(fields/Cycle\d+/(data\.pvtu|proc\d+\.vtu)|fields/fields(_\d+)?\.vtkhdf|fields/fields\.vtkhdf\.series(\.part)?|)"
       R"(checkpoints/step_\d+\.h5(\.part)?)");
   return names;

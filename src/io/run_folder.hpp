@@ -1,5 +1,5 @@
-/// The folder of a run: resolved.toml, run.log, run.json, run.lock, history.csv, fields/ (ParaView), checkpoints/.
-/// What a user put there is never removed; no other run writes there as long as this object lives.
+/// The folder of a run: resolved.toml, run.log, run.json, run.lock, history.csv, history.h5, fields/ (ParaView),
+/// checkpoints/. What a user put there is never removed; no other run writes there as long as this object lives.
 #pragma once
 
 #include <string>

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/timers.hpp"
+#include "io/history_hdf5.hpp"
 
 namespace titin {
 namespace {
@@ -35,6 +36,8 @@ void OutputConfig::bind(Section& s) {
          {.unit = "s", .range = positive, .doc = "time between two writes of the fields, instead of every"});
   s.read("history_every", history_every,
          {.range = {.min = 1}, .doc = "steps between two rows of history.csv; explicit runs have many steps"});
+  s.read("history_hdf5", history_hdf5,
+         {.doc = "also write history.h5 when the run ends in any way: a dataset for each column, with its unit"});
   s.read("times", at,
          {.unit = "s", .range = positive, .doc = "times at which the fields are written, instead of every"});
   if (by_steps && by_time) s.error("interval", "excludes output.every", "keep one of them");
@@ -118,6 +121,8 @@ void Output::finish(const Clock& clock) {
     write_row(clock.steps(), clock.time());
   }
   if (last_fields_ != clock.steps()) write_fields(clock.steps(), clock.time());
+  if (config_.history_hdf5)
+    write_history_hdf5(folder_.file("history.csv"), columns(), history_->rows(), folder_.file("history.h5"));
 }
 
 const Quantity& Output::shown() const {

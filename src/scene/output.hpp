@@ -16,8 +16,9 @@ namespace titin {
 struct OutputConfig {
   bool fields = true;
   FieldFiles files;
-  int every = 1;           // steps
-  int history_every = 1;   // steps
+  int every = 1;          // steps
+  int history_every = 1;  // steps
+  bool history_hdf5 = false;
   double interval = 0;     // [s]; 0: by steps
   std::vector<double> at;  // [s]; besides the first and the last; none: by steps or interval
   void bind(Section& s);
@@ -36,7 +37,7 @@ class Output {
   void sync() const { history_->sync(); }  ///< waits until the history is on disk
   /// Of the state that was just accepted. Returns false when nothing of it goes into the history.
   bool write(const Clock& clock);
-  /// The last state is always in the history and among the fields.
+  /// The last state is always in the history and among the fields; writes history.h5 if it is asked for.
   void finish(const Clock& clock);
 
   const std::vector<Quantity>& quantities() const { return quantities_; }  ///< as last written

@@ -51,7 +51,7 @@ class Folder : public testing::Test {
     return problem.substr(head.size());
   }
   void put_a_run() const {
-    for (const char* name : {"resolved.toml", "run.json", "run.log", "history.csv", "fields/fields.pvd",
+    for (const char* name : {"resolved.toml", "run.json", "run.log", "history.csv", "history.h5", "fields/fields.pvd",
                              "fields/Cycle000003/data.pvtu", "fields/Cycle000003/proc000001.vtu"})
       put(name);
   }
@@ -76,6 +76,7 @@ TEST_F(Folder, OfAnEarlierRunNeedsOverwrite) {
   EXPECT_TRUE(has("history.csv"));
   EXPECT_EQ(message(true), "");
   EXPECT_FALSE(has("history.csv"));
+  EXPECT_FALSE(has("history.h5"));
   EXPECT_FALSE(has("fields"));
 }
 

@@ -2,6 +2,7 @@
 // character, whatever formulation, law or clock. Other numbers of ranks: tests/scene/run_restart.py.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "base/config.hpp"
 #include "base/log.hpp"
 #include "base/parallel.hpp"
+#include "io/parallel_hdf5.hpp"
 #include "scene/run.hpp"
 
 namespace titin {
@@ -199,6 +201,25 @@ TEST_F(Restarts, SolidGoesOnByTheBit) {
   EXPECT_EQ(begin(solid, {"output.checkpoint_every=7", "output.checkpoint_keep=999", "output.history_every=3"}),
             Outcome::finished);
   compare_histories(14);
+}
+
+// Stopped, gone on with and stopped again: history.h5 is always that of all rows, and no part of one is left.
+TEST_F(Restarts, HistoryInHdf5IsThatOfAllRows) {
+  const auto check = [&](const std::string& folder) {
+    const std::string text = text_of(folder + "/history.csv");
+    const std::uint64_t rows = std::count(text.begin(), text.end(), '\n') - 1;
+    ParallelHdf5 file((path / folder / "history.h5").string(), ParallelHdf5::Mode::read);
+    EXPECT_EQ(file.rows("time"), rows);
+    EXPECT_EQ(file.rows("torque_x-_y"), rows);
+    const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+    EXPECT_EQ(file.read<double>("time", rows - 1, 1).at(0), std::stod(last));
+    EXPECT_FALSE(fs::exists(path / folder / "history.h5.part"));
+  };
+  EXPECT_EQ(begin(solid, {"output.history_hdf5=true", "output.checkpoint_every=5", "time.step=2 us", "time.end=60 us"}),
+            Outcome::finished);
+  check("whole");
+  EXPECT_EQ(run({"", {"time.end=80 us"}, "", false, path / "whole"}), Outcome::finished);
+  check("whole");
 }
 
 TEST_F(Restarts, AveragedPressuresGoOnByTheBit) {
