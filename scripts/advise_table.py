@@ -17,7 +17,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
-from bench import environment  # noqa: E402
+import environment  # noqa: E402
 
 M, L = "configs/muscle", "configs/lagrange"
 # scene: quantity, tolerance, overrides of the truth
@@ -62,7 +62,7 @@ class Study:
 
     def call(self, words):
         start = os.times()
-        found = subprocess.run([self.titin, *words], capture_output=True, text=True, env=environment(), cwd=ROOT)
+        found = subprocess.run([self.titin, *words], capture_output=True, text=True, env=environment.mpi(), cwd=ROOT)
         end = os.times()
         if found.returncode:
             sys.exit(f"{' '.join(words)}: {found.stderr}")

@@ -38,7 +38,6 @@ Runs go one after the other (their CPU seconds are compared) into results/bench/
 appended to; the chart is docs/pictures/bench_NAME.png. Needs the Python libraries of python_requirements.txt.
 """
 import argparse
-import os
 import pathlib
 import resource
 import subprocess
@@ -46,6 +45,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
+import environment  # noqa: E402
 from batch import ROOT, Problem, check_scene, guarded  # noqa: E402
 from bench_results import Bench, fitted_order, pareto_front, revision  # noqa: E402
 
@@ -61,13 +61,6 @@ def parse_arguments():
     parser.add_argument("--titin", default=str(ROOT / "build" / "bin" / "titin"), help="the program")
     parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("results") / "bench", help="folder of the runs")
     return parser.parse_args()
-
-
-def environment():
-    """What scripts/mpi_environment exports, and one thread a rank."""
-    lines = (HERE / "mpi_environment").read_text().splitlines()
-    words = [word for line in lines if line.startswith("export ") for word in line.split("#")[0].split()[1:]]
-    return {**os.environ, "OPENBLAS_NUM_THREADS": "1", **dict(word.split("=", 1) for word in words)}
 
 
 def open_bench(name, options):
@@ -95,7 +88,7 @@ def run(bench, line, case, options):
         resource.setrlimit(resource.RLIMIT_CPU, (bench.limit, bench.limit))
 
     with open(line.sweep.file(case, "log"), "w") as log:
-        subprocess.run(command, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env=environment(), preexec_fn=limited)
+        subprocess.run(command, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env=environment.mpi(), preexec_fn=limited)
 
 
 def run_all(bench, options, file):
@@ -140,9 +133,7 @@ def main():
             print(f"{path.stem:24} {Bench(path, options.work).title}")
         return 0
     if not options.quick:
-        from environment import enter
-
-        enter()
+        environment.enter()
     wrong = []
     for name in options.names:
         bench = open_bench(name, options)

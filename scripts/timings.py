@@ -11,10 +11,11 @@ by CPU time summed over the ranks, in which ranks that wait for each other count
 """
 import argparse
 import json
-import os
 import pathlib
 import subprocess
 import sys
+
+import environment
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CELLS = (12, 20, 27)
@@ -22,18 +23,11 @@ BLOCK = "[16, 16, 15]"  # of Q2: 101 277 unknowns
 ASSEMBLY = ("tangent", "residual")
 
 
-def environment():
-    """What scripts/mpi_environment exports."""
-    lines = (ROOT / "scripts/mpi_environment").read_text().splitlines()
-    words = [word for line in lines if line.startswith("export ") for word in line.split("#")[0].split()[1:]]
-    return {**os.environ, "OPENBLAS_NUM_THREADS": "1", **dict(word.split("=", 1) for word in words)}
-
-
 def growth(options):
     print("| unknowns | iterations | set-up | solve | in all, an unknown | memory an unknown |\n|---|---|---|---|---|---|")
     for cells in CELLS:
         command = [options.build / "bin/linear_solver", "--cells", str(cells), "--dt", "1e-3", "--ratio", "1e3"]
-        row = json.loads(subprocess.run(command, check=True, capture_output=True, text=True, env=environment()).stdout)
+        row = json.loads(subprocess.run(command, check=True, capture_output=True, text=True, env=environment.mpi()).stdout)
         setup, solve, n = row["setup_cpu_seconds"], row["solve_cpu_seconds"], row["unknowns"]
         cost, memory = 1e6 * (setup + solve) / n, row["solver_bytes_per_unknown"] / 1e3
         print(f"| {n:,} | {row['iterations']} | {setup:.2f} s | {solve:.2f} s | {cost:.0f} us | {memory:.2f} kB |", flush=True)
@@ -43,7 +37,7 @@ def run_block(options, ranks):
     folder = options.work / f"block_{ranks}"
     command = ["mpirun", "-np", str(ranks), options.build / "bin/titin", "run", ROOT / "configs/muscle/block.toml", f"mesh.cells={BLOCK}"]
     command += ["time.end=25 ms", "output.fields=false", "solver.linear=block", "-o", folder, "--overwrite", "-q"]
-    subprocess.run(command, check=True, env=environment())
+    subprocess.run(command, check=True, env=environment.mpi())
     return json.loads((folder / "run.json").read_text())
 
 
@@ -69,7 +63,7 @@ def compare(what):
         known = options.work / "over_refined.csv"
         if what == "accuracy" and known.exists():
             command += ["--exact", known]
-        subprocess.run(command, check=True, env=environment())
+        subprocess.run(command, check=True, env=environment.mpi())
 
     return run
 

@@ -65,8 +65,9 @@ Start read(const RunOptions& options) {
 /// One run: the loop, and run.json around it.
 class Run {
  public:
-  Run(Start& start, const RunOptions& options)
+  Run(Start& start, const RunOptions& options, const StopSignals& signals)
       : scene_(start.scene),
+        signals_(signals),
         checkpoint_(start.checkpoint),
         folder_(options.restart.empty() ? RunFolder(folder_of(options), options.overwrite)
                                         : RunFolder::of_restart(folder_of(options))),
@@ -114,7 +115,6 @@ class Run {
     const double start = wall_seconds();
     clock_.land_on(scene_.model->kinks());
     clock_.land_on(scene_.output.times(scene_.clock.end));
-    const StopSignals signals;
     if (checkpoint_.path.empty()) {
       output_.begin();
       scene_.reference.add(0, output_.quantities());
@@ -122,7 +122,7 @@ class Run {
     Progress progress(output_.shown(), scene_.clock.by_stability, clock_.fraction());
     Outcome outcome = Outcome::finished;
     while (!clock_.done()) {
-      if (stop_is_asked(signals)) {
+      if (stop_is_asked()) {
         outcome = Outcome::stopped;
         break;
       }
@@ -239,8 +239,8 @@ class Run {
     return false;
   }
 
-  bool stop_is_asked(const StopSignals& signals) {
-    if (const std::string signal = signals.received(); !signal.empty())
+  bool stop_is_asked() {
+    if (const std::string signal = signals_.received(); !signal.empty())
       summary_.reason = fmt::format("stopped by {} at {:.6g} s", signal, clock_.time());
     else if (saving_.out_of_time())
       summary_.reason = fmt::format("stopped at {:.6g} s: the next step could pass output.wall_limit", clock_.time());
@@ -276,6 +276,7 @@ class Run {
   }
 
   Scene& scene_;
+  const StopSignals& signals_;
   const FoundCheckpoint& checkpoint_;
   RunFolder folder_;
   Clock clock_;
@@ -288,8 +289,9 @@ class Run {
 }  // namespace
 
 Outcome run(const RunOptions& options) {
+  const StopSignals signals;  // from here on: one that comes while the scene is read stops before the first step
   Start start = read(options);
-  return Run(start, options).go();
+  return Run(start, options, signals).go();
 }
 
 void check_scene(const RunOptions& options) {
