@@ -141,6 +141,13 @@ class Adviser {
     return probe(options_.scene_file, joined(joined(options_.overrides, common_), more), quantity_);
   }
 
+  /// A scene that cannot be had, on a mesh with fewer cells than ranks say, is a probe that failed.
+  Probe run_if_possible(const Overrides& more) try { return run(more); } catch (const InputError& error) {
+    Probe none;
+    none.failure = error.messages().front();
+    return none;
+  }
+
   /// The scene's own mesh, halved until it is small; a scene that cannot be read on a coarser one (a box of averages
   /// that then holds no cell) keeps the finer.
   void choose_mesh() {
@@ -298,11 +305,11 @@ class Adviser {
   double mesh_error(Candidate& c, const Overrides& settings, const Probe& fine) {
     const auto half = mesh_.halved();
     if (!half) return 0;
-    const Probe coarse = run(joined(settings, half->overrides()));
+    const Probe coarse = run_if_possible(joined(settings, half->overrides()));
     if (!coarse.ok()) return 1;
     const double change = difference(coarse, fine), ratio = mesh_.over(*half);
     const auto quarter = half->halved();
-    const Probe coarsest = quarter ? run(joined(settings, quarter->overrides())) : Probe{};
+    const Probe coarsest = quarter ? run_if_possible(joined(settings, quarter->overrides())) : Probe{};
     if (quarter && coarsest.ok() && change > 0)
       c.rate = std::clamp(std::log(difference(coarsest, coarse) / change) / std::log(half->over(*quarter)),
                           slowest_rate, c.order + 1.0);
