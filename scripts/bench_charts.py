@@ -32,7 +32,7 @@ def draw_curves(bench, rows):
     for n, line in enumerate(bench.lines):
         good = [r for r in bench.of(line, rows) if r.status == "finished" and r.error > 0]
         if not good:
-            names.append((n, f"{line.name}: did not finish"))
+            names.append((n, f"{line.name}: {'did not finish' if bench.of(line, rows) else 'not run yet'}"))
             continue
         style = {"color": COLOURS[n % len(COLOURS)], "marker": MARKERS[n % len(MARKERS)], "markersize": 4.5, "linewidth": 2.4 if line.is_default else 1.3}
         for axis, cost in zip(axes, costs):
