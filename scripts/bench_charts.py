@@ -6,6 +6,7 @@ import textwrap
 import matplotlib.pyplot as plt
 import numpy as np
 from bench_results import ROOT, fitted_order, pareto_front, resolution
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from plot_style import COLOURS, FAINT, INK, STYLE
 
 MARKERS = "os^Dv<>phX"
@@ -34,7 +35,7 @@ def draw_curves(bench, rows):
         if not good:
             names.append((n, f"{line.name}: {'did not finish' if bench.of(line, rows) else 'not run yet'}"))
             continue
-        style = {"color": COLOURS[n % len(COLOURS)], "marker": MARKERS[n % len(MARKERS)], "markersize": 4.5, "linewidth": 2.4 if line.is_default else 1.3}
+        style = look(n) | {"linewidth": 2.6 if line.is_default else 1.3}
         for axis, cost in zip(axes, costs):
             axis.loglog([cost(r) for r in good], [r.error for r in good], **style)
         names.append((n, f"{line.name}{' (default)' if line.is_default else ''}: {slopes(bench, good)}"))
@@ -44,12 +45,30 @@ def draw_curves(bench, rows):
         axis.loglog([cost(r) for r in front], [r.error for r in front], "o", markersize=10, markerfacecolor="none", markeredgecolor=INK, markeredgewidth=0.8)
     for axis, label in zip(axes, labels):
         axis.set_xlabel(label)
-    axes[0].set_title(bench.label)
+        readable(axis.xaxis, *axis.get_xlim())
+    readable(axes[0].yaxis, *axes[0].get_ylim())
+    axes[0].set_ylabel(textwrap.fill(bench.label, 40))
     axes[1].set_title("rings: no run is both better and cheaper")
-    handles = [plt.Line2D([], [], color=COLOURS[n % len(COLOURS)], marker=MARKERS[n % len(MARKERS)], markersize=4.5) for n, _ in names]
+    handles = [plt.Line2D([], [], **look(n)) for n, _ in names]
     figure.legend(handles, [name for _, name in names], loc="outside lower center", ncols=2, frameon=False, fontsize=8.5)
     figure.suptitle(f"{bench.title}. Error against: {bench.reference}", fontsize=10.5, fontweight="bold", x=0.01, ha="left")
     return figure
+
+
+def readable(axis, low, high):
+    """Numbers at 1, 2, 5 where the axis has few decades, none over another."""
+    few = high / low < 60
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if few else (1,)))
+    axis.set_minor_formatter(NullFormatter())
+    if few:
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.3g}"))
+
+
+def look(n):
+    """Of the nth curve: the second round of the colours is dashed and hollow."""
+    colour, again = COLOURS[n % len(COLOURS)], n >= len(COLOURS)
+    return {"color": colour, "marker": MARKERS[n % len(MARKERS)], "markersize": 4.5, "linestyle": "--" if again else "-",
+            "markerfacecolor": "white" if again else colour}  # fmt: skip
 
 
 def slopes(bench, rows):
