@@ -4,7 +4,7 @@
     exact.py            writes the CSV files beside it
     exact.py --check    fails if they are not what it would write (a test runs this)
 
-Each is a homogeneous or one-dimensional problem of three-dimensional elasticity, solved to round-off. Units: SI.
+Each is a homogeneous or one-dimensional problem of elasticity, solved to round-off. Units: SI.
 """
 import math
 import pathlib
@@ -115,6 +115,37 @@ def pressure():
     write("pressure.csv", ["time [s]", "marker_inside_ux [m]", "marker_outside_ux [m]"], rows)
 
 
+# --- configs/muscle/rod_wave.toml and configs/lagrange/rod_wave.toml: a pulse of traction runs along a bar between slippery
+# walls, is turned round at its held end and comes back. d'Alembert: u = sum over the echoes of +-G(t - way / c), where
+# G is the integral of traction / (density c).
+
+LENGTH, DENSITY, MODULUS, PUSH, PULSE = 1.0, 1100.0, 56.6666666667e6 + 4 / 3 * 5.86206896552e6, 100.0, 2e-3
+PULSE_ROWS = 20  # of the scene's table, which is linear between them
+
+
+def pushed(t):
+    """Integral of the traction's table up to t, exactly."""
+    step, total = PULSE / PULSE_ROWS, 0
+    for n in range(PULSE_ROWS):
+        a, b = (round(math.sin(math.pi * k / PULSE_ROWS) ** 2, 6) for k in (n, n + 1))
+        s = min(max(t - n * step, 0), step)
+        total += PUSH * (a * s + (b - a) * s * s / (2 * step))
+    return total
+
+
+def rod_wave():
+    c = math.sqrt(MODULUS / DENSITY)
+
+    def displacement(x, t):
+        echoes = range(int(t * c / (2 * LENGTH)) + 1)
+        ways = [((-1) ** n, 2 * n * LENGTH + LENGTH - x, 2 * n * LENGTH + LENGTH + x) for n in echoes]
+        return sum(sign * (pushed(t - there / c) - pushed(t - back / c)) for sign, there, back in ways) / (DENSITY * c)
+
+    rows = [[f"{n * 2e-4:.4f}", displacement(0.5, n * 2e-4), displacement(1.0, n * 2e-4)] for n in range(41)]
+    write("rod_wave.csv", ["time [s]", "marker_middle_ux [m]", "marker_end_ux [m]"], rows)
+
+
 if __name__ == "__main__":
     fat()
     pressure()
+    rod_wave()
