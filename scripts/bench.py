@@ -5,6 +5,7 @@
     scripts/bench.py swinging_plate       runs what is not in its table yet, then draws
     scripts/bench.py swinging_plate --draw        only draws
     scripts/bench.py swinging_plate --again "P1"  runs the sweeps whose name begins so again
+    scripts/bench.py muscle_block --truth         makes its over-refined histories again (its [[truth]], scripts/bench_truth.py)
     scripts/bench.py --quick NAME...      the small cases, into a folder of work; asserts orders and the place of our defaults
 
 A bench is a file of configs/bench/:
@@ -16,6 +17,7 @@ A bench is a file of configs/bench/:
     exact = 0.0                                  # what is taken from it, where it is a value and no error yet
     scale = 1.0                                  # what that is divided by
     dimension = 2                                # of the cells: h = cells^(-1/dimension)
+    history = "muscle_block.csv"                 # optional: of bench/reference, for errors "COLUMN_l2" or "COLUMN_max" against it
     limit = 600                                  # [s] CPU time after which a run has failed
     against = "h"                                # or "dt": the first chart's axis
 
@@ -45,6 +47,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
+import bench_truth  # noqa: E402
 import environment  # noqa: E402
 from batch import ROOT, Problem, check_scene, guarded  # noqa: E402
 from bench_results import Bench, fitted_order, pareto_front, revision  # noqa: E402
@@ -56,6 +59,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(prog="scripts/bench.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", help="benches: files of configs/bench/ without .toml")
     parser.add_argument("--draw", action="store_true", help="only draw what the tables have")
+    parser.add_argument("--truth", action="store_true", help="make the over-refined histories again, nothing else")
     parser.add_argument("--again", metavar="SWEEP", help="run the sweeps whose name begins so again ('' for all)")
     parser.add_argument("--quick", action="store_true", help="only small cases; asserts what must hold, writes nothing into docs")
     parser.add_argument("--titin", default=str(ROOT / "build" / "bin" / "titin"), help="the program")
@@ -83,7 +87,7 @@ def wanted(bench, options, rows):
 def run(bench, line, case, options):
     line.sweep.folder.mkdir(parents=True, exist_ok=True)
     folder = line.sweep.folder / case.name
-    command = [options.titin, "run", *line.sweep.arguments(case), "-o", str(folder), "--overwrite", "-q"]
+    command = [options.titin, "run", *line.arguments(case), "-o", str(folder), "--overwrite", "-q"]
     def limited():
         resource.setrlimit(resource.RLIMIT_CPU, (bench.limit, bench.limit))
 
@@ -97,7 +101,7 @@ def run_all(bench, options, file):
     problems = []
     for line, case in todo:  # all mistakes before anything runs
         try:
-            check_scene(options.titin, line.sweep.arguments(case))
+            check_scene(options.titin, line.arguments(case))
         except Problem as problem:
             problems.append(f"{line.name}, {line.key(case)}: {problem}")
     if problems:
@@ -137,6 +141,9 @@ def main():
     wrong = []
     for name in options.names:
         bench = open_bench(name, options)
+        if options.truth:
+            bench_truth.make(bench, options.titin)
+            continue
         file = bench.work / "quick.csv" if options.quick else bench.file
         if options.quick:
             file.unlink(missing_ok=True)

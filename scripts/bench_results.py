@@ -15,8 +15,9 @@ from batch import Problem, read_toml
 from sweep_cases import Sweep
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-CHART_KEYS = {"title", "reference", "error", "label", "scale", "exact", "dimension", "limit", "against", "sweep", "map"}
-SWEEP_KEYS = {"name", "default", "order", "quick"}
+TRUTHS = ROOT / "docs" / "verification" / "bench" / "reference"
+CHART_KEYS = {"title", "reference", "error", "label", "scale", "exact", "dimension", "limit", "against", "sweep", "map", "truth", "history"}
+SWEEP_KEYS = {"name", "default", "order", "quick", "history"}
 COLUMNS = ["sweep", "case", "status", "model", "error", "cells", "unknowns", "steps", "newton", "krylov", "cpu_seconds",
            "wall_seconds", "peak_rss_bytes", "ranks", "errors", "commit", "machine", "date"]  # fmt: skip
 
@@ -48,10 +49,16 @@ class Line:
         self.name = extra["name"]
         self.is_default = extra.get("default", False)
         self.order, self.quick = extra.get("order"), extra.get("quick", 0)
+        self.history = extra.get("history", bench.history)
         self.sweep = Sweep(bench.path, bench.work / self.name.replace("/", "_").replace(" ", "_"), table)
 
     def cases(self, quick):
         return self.sweep.cases[: self.quick] if quick else self.sweep.cases
+
+    def arguments(self, case):
+        """Of `titin run`; the history that it is compared with is no part of what a row is known by."""
+        against = [f"reference.history={json.dumps(str(TRUTHS / self.history))}"] if self.history else []
+        return [*self.sweep.arguments(case), *against]
 
     def key(self, case):
         return " ".join(self.sweep.overrides(case))
@@ -72,7 +79,7 @@ class Bench:
         self.exact = table.get("exact", 0)
         self.limit = table.get("limit", 600)
         self.dimension, self.against = table.get("dimension", 3), table.get("against", "h")
-        self.map = table.get("map")
+        self.map, self.truths, self.history = table.get("map"), table.get("truth", []), table.get("history")
         self.lines = [Line(self, dict(sweep)) for sweep in table.get("sweep", [])]
         if not self.lines:
             raise Problem(f"{path}: there are no runs; add a [[sweep]] with name, scene and vary")
