@@ -67,8 +67,6 @@ struct SceneText {
   std::vector<std::string> messages() const;    ///< in order of place, each once
 
  private:
-  void override_with(const std::string& text);
-  void remove(const std::string& text);
   void unknown(const std::string& table, const toml::key& key);
 };
 

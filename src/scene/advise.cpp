@@ -5,17 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
-#include <map>
-#include <optional>
 
 #include "base/config.hpp"
 #include "base/log.hpp"
 #include "base/parallel.hpp"
 #include "base/words.hpp"
+#include "scene/mesh_choice.hpp"
 #include "scene/probe.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_facts.hpp"
+#include "scene/simplification.hpp"
 
 namespace titin {
 namespace {
@@ -39,53 +40,6 @@ Overrides joined(Overrides a, const Overrides& b) {
 
 std::string percent(double x) { return fmt::format("{:.2g} %", 100 * x); }
 
-/// Cells along the edges of a box, or refinements of a file; elements or masses of a rod.
-struct MeshChoice {
-  std::string key = "mesh.cells";  // "": one element without mass, nothing to choose
-  std::vector<int> cells;          // empty: from a file
-  int refine = 0;
-  Overrides overrides() const {
-    if (key.empty()) return {};
-    if (cells.empty()) return {fmt::format("mesh.refine={}", refine)};
-    if (key != "mesh.cells") return {fmt::format("{}={}", key, cells[0])};
-    return {fmt::format("mesh.cells=[{}]", fmt::join(cells, ", "))};
-  }
-  std::string words() const {
-    if (key.empty()) return "one element";
-    return cells.empty() ? count(refine, "refinement") : fmt::format("{} cells", fmt::join(cells, " x "));
-  }
-  std::optional<MeshChoice> halved() const {
-    MeshChoice half = *this;
-    if (cells.empty()) --half.refine;
-    if (cells.empty()) return refine > 0 ? std::optional(half) : std::nullopt;
-    for (int& n : half.cells) n = (n + 1) / 2;
-    return half.cells == cells ? std::nullopt : std::optional(half);
-  }
-  /// Cells along an edge over those of `from`, the mean of all edges.
-  double over(const MeshChoice& from) const {
-    if (cells.empty()) return std::exp2(refine - from.refine);
-    double product = 1;
-    for (std::size_t i = 0; i < cells.size(); ++i) product *= static_cast<double>(cells[i]) / from.cells[i];
-    return std::pow(product, 1.0 / static_cast<double>(cells.size()));
-  }
-  MeshChoice scaled(double factor) const {
-    MeshChoice other = *this;
-    if (cells.empty()) other.refine = std::max(0, refine + static_cast<int>(std::ceil(std::log2(factor) - 1e-9)));
-    for (int& n : other.cells) n = std::max(1, static_cast<int>(std::ceil(n * factor - 1e-9)));
-    return other;
-  }
-};
-
-/// Something that the scene might do without.
-struct Simplification {
-  Simplification(std::string of, Overrides by) : what(std::move(of)), overrides(std::move(by)) {}
-  std::string what;
-  Overrides overrides;
-  double changes = 0, cost = 1;  // of the quantity; CPU time over that of the probe with it
-  std::string problem;           // why it cannot be had
-  bool taken = false;
-};
-
 /// An order of the elements or of the scheme, with the mesh and the step that it needs.
 struct Candidate {
   int order;
@@ -103,15 +57,8 @@ class Adviser {
         scene_(Scene::read(options.scene_file, options.overrides)),
         facts_(scene_.settings),
         quantity_(options.quantity.empty() ? scene_.model->shown_quantity() : options.quantity),
-        explicit_(scene_.clock.by_stability) {
-    if (is_rod()) {
-      const std::string kind = facts_.text("rod.kind");
-      asked_.key = kind == "continuum" ? "rod.cells" : kind == "chain" ? "rod.masses" : "";
-      asked_.cells = {asked_.key.empty() ? 1 : whole(asked_.key)};
-    } else if (facts_.has("mesh.box")) {
-      for (const double n : facts_.numbers("mesh.cells")) asked_.cells.push_back(static_cast<int>(n));
-    }
-    if (asked_.cells.empty()) asked_.refine = static_cast<int>(facts_.number("mesh.refine"));
+        explicit_(scene_.clock.by_stability),
+        asked_(MeshChoice::of(facts_)) {
     if (!facts_.below("averages.").empty() && !quantity_.starts_with("mean_")) common_.push_back("~averages");
   }
 
@@ -127,16 +74,6 @@ class Adviser {
   }
 
  private:
-  /// What the scene says, or the default of a key that it only asks about.
-  int whole(const std::string& key) const {
-    if (facts_.has(key)) return static_cast<int>(facts_.number(key));
-    for (const KeyRecord& record : scene_keys())
-      if (record.path == key) return std::stoi(record.default_value);
-    return 1;
-  }
-
-  bool is_rod() const { return facts_.text("model") == "rod"; }
-
   Probe run(const Overrides& more) {
     return probe(options_.scene_file, joined(joined(options_.overrides, common_), more), quantity_);
   }
@@ -173,27 +110,6 @@ class Adviser {
 
   // ---- simplifications
 
-  std::vector<Simplification> simplifications() const {
-    std::vector<Simplification> list;
-    const auto is = [&](const char* key, const char* value) { return facts_.text(key) == value; };
-    if (is("muscle.inertia", "dynamic")) {
-      Overrides rest{"muscle.inertia=quasi-static"};
-      if (says("time.scheme")) rest.push_back("~time.scheme");
-      list.emplace_back("without inertia and rates", rest);
-    }
-    if (is_rod() && is("rod.inertia", "dynamic") && !is("rod.kind", "massless")) {
-      Overrides rest{"rod.kind=massless"};
-      for (const char* key : {"rod.cells", "rod.masses", "rod.order", "rod.spacing", "time.scheme"})
-        if (says(key)) rest.push_back(fmt::format("~{}", key));
-      list.emplace_back("without mass", rest);
-    }
-    if (is("muscle.element", "three_field"))
-      list.emplace_back("displacement alone", Overrides{"muscle.element=displacement"});
-    if (const Overrides plane = in_the_plane(); !plane.empty()) list.emplace_back("in the plane", plane);
-    if (explicit_ && is("fv.limiter", "mood")) list.emplace_back("without limiter", Overrides{"fv.limiter=none"});
-    return list;
-  }
-
   /// By itself, not as a default.
   bool says(const std::string& key) const try {
     Config::read_file(options_.scene_file, joined(options_.overrides, {"~" + key}));
@@ -202,91 +118,65 @@ class Adviser {
     return false;
   }
 
-  /// What makes a plane scene of a box that is held between z- and z+; empty where it is not.
-  Overrides in_the_plane() const {
-    if (asked_.cells.size() != 3) return {};
-    Overrides change;
-    for (const char* side : {"boundary.z-", "boundary.\"z+\""}) {
-      const std::string name = side;
-      if (facts_.text(name + ".displacement.z") != "0 m" || facts_.has(name + ".displacement.x") ||
-          facts_.has(name + ".displacement.y") || facts_.text(name + ".traction") != "0, 0, 0 Pa")
-        return {};
-      change.push_back("~" + name);
-    }
-    const auto box = facts_.numbers("mesh.box");
-    return joined(change,
-                  {fmt::format("mesh.box={}, {} m", box[0], box[1]), fmt::format("mesh.thickness={} m", box[2])});
-  }
-
-  Overrides cells_for(const Simplification& s, const MeshChoice& mesh) const {
-    MeshChoice plane = mesh;
-    if (s.what == "in the plane") plane.cells.resize(2);
-    if (s.what == "without mass") plane.key = "";
-    return plane.overrides();
-  }
-
+  /// Tries each by itself and takes those that fit into their share together, the least harmful first.
   void simplify() {
-    list_ = simplifications();
+    auto list = simplifications(facts_, [this](const std::string& key) { return says(key); });
+    for (Simplification& s : list) try_out(s);
+    std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.changes < b.changes; });
     double left = for_simplifications * options_.tolerance;
-    for (Simplification& s : list_) try_out(s);
-    std::sort(list_.begin(), list_.end(), [](const auto& a, const auto& b) { return a.changes < b.changes; });
-    for (Simplification& s : list_) {
-      s.taken = s.problem.empty() && s.changes <= left && s.cost < 1;
-      if (s.taken) left -= s.changes, taken_ = joined(taken_, s.overrides), simplified_ += s.changes;
-      is_plane_ = is_plane_ || (s.taken && s.what == "in the plane");
-      is_massless_ = is_massless_ || (s.taken && s.what == "without mass");
-      const std::string why = s.taken            ? "take it"
-                              : s.changes > left ? "no: more than its share"
-                                                 : "no: it saves nothing";
-      if (s.problem.empty())
-        logging::info("{:<34}{:>14}{:>11.2f}x  {}", s.what, percent(s.changes), s.cost, why);
+    for (Simplification& s : list) {
+      const bool fits = s.changes <= left;
+      s.taken = s.can_be_had() && fits && s.cost < 1;
+      if (s.taken) take(s), left -= s.changes;
+      if (s.can_be_had())
+        logging::info("{:<34}{:>14}{:>11.2f}x  {}", s.what, percent(s.changes), s.cost,
+                      s.taken ? "take it"
+                      : fits  ? "no: it saves nothing"
+                              : "no: more than its share");
       else
         logging::info("{:<34}{:>14}{:>12}  no: {}", s.what, "-", "-", s.problem);
-    }
-    for (MeshChoice* mesh : {&mesh_, &asked_}) {
-      if (is_plane_) mesh->cells.resize(2);
-      if (is_massless_) mesh->key = "", mesh->cells = {1};
     }
     together_ = taken_.empty() ? base_ : run(joined(taken_, mesh_.overrides()));
   }
 
   void try_out(Simplification& s) {
-    try {
-      const Probe without = run(joined(s.overrides, cells_for(s, mesh_)));
-      s.problem = without.failure;
-      if (!without.ok()) return;
-      s.changes = difference(without, base_);
-      s.cost = without.cpu_seconds / base_.cpu_seconds;
-    } catch (const InputError& error) {
-      s.problem = error.messages().front();
-    }
+    const Probe without = run_if_possible(joined(s.overrides, s.mesh(mesh_).overrides()));
+    s.problem = without.failure;
+    if (!without.ok()) return;
+    s.changes = difference(without, base_);
+    s.cost = without.cpu_seconds / base_.cpu_seconds;
+  }
+
+  void take(const Simplification& s) {
+    taken_ = joined(taken_, s.overrides);
+    simplified_ += s.changes;
+    mesh_ = s.mesh(mesh_), asked_ = s.mesh(asked_);
   }
 
   // ---- order, mesh and step
 
-  const char* order_key() const { return explicit_ ? "fv.order" : is_rod() ? "rod.order" : "muscle.order"; }
-  bool has_order() const { return !is_rod() || mesh_.key == "rod.cells"; }
+  const char* order_key() const {
+    return explicit_ ? "fv.order" : facts_.has("rod.kind") ? "rod.order" : "muscle.order";
+  }
+  bool has_order() const { return !facts_.has("rod.kind") || mesh_.key == "rod.cells"; }
 
   void choose_order() {
-    const int own = has_order() ? whole(order_key()) : 1;
+    const int own = has_order() ? facts_.whole(order_key()) : 1;
     std::vector<int> orders{own};
     if (own > 1) orders.push_back(own - 1);
     for (const int order : orders) {
       Candidate c{order, {fmt::format("{}={}", order_key(), order)}, mesh_};
       if (order == own) c.overrides.clear();
-      try {
-        judge(c);
-        candidates_.push_back(c);
-      } catch (const InputError&) {  // no such order for these cells
-      }
+      const Overrides settings = joined(taken_, c.overrides);
+      const Probe fine = order == own ? together_ : run_if_possible(joined(settings, mesh_.overrides()));
+      if (!fine.ok()) continue;  // no such order for these cells, or none that gets to the end
+      judge(c, settings, fine);
+      candidates_.push_back(c);
     }
   }
 
   /// Estimates the errors of mesh and step at the probe, then the mesh and the step that are asked for.
-  void judge(Candidate& c) {
-    const Overrides settings = joined(taken_, c.overrides);
-    const Probe fine = c.overrides.empty() ? together_ : run(joined(settings, mesh_.overrides()));
-    if (!fine.ok()) return;
+  void judge(Candidate& c, const Overrides& settings, const Probe& fine) {
     const double at_probe = mesh_error(c, settings, fine);
     const double share = for_the_mesh * options_.tolerance;
     const double factor = std::clamp(std::pow(at_probe / share, 1 / c.rate), coarsest_mesh, finest_mesh);
@@ -294,7 +184,7 @@ class Adviser {
     const double finer = c.mesh.over(mesh_);
     c.mesh_error = at_probe * std::pow(finer, -c.rate);
     if (!explicit_) choose_step(c, settings, fine);
-    const double unknowns = std::pow(finer, static_cast<double>(dimension()));
+    const double unknowns = std::pow(finer, static_cast<double>(mesh_.dimension()));
     const double steps = explicit_ ? finer : scene_.clock.step / c.step;
     c.cost = fine.cpu_seconds * std::pow(unknowns, cost_exponent) * std::max(steps, 1 / longest_step);
     logging::info("{:<34}{:>14}{:>11.2f}x  rate {:.1f}: {} for {}",
@@ -335,8 +225,6 @@ class Adviser {
                   percent(error), "", order, c.step, percent(c.step_error));
   }
 
-  std::size_t dimension() const { return asked_.cells.empty() ? 3 : asked_.cells.size(); }
-
   // ---- the proposal
 
   void propose() {
@@ -349,7 +237,8 @@ class Adviser {
         });
     Overrides proposal = joined(joined(taken_, best.overrides), best.mesh.overrides());
     if (best.step > 0) proposal.push_back(fmt::format("time.step={:.9g} s", best.step));
-    const double as_asked = base_.cpu_seconds * std::pow(asked_.over(mesh_), cost_exponent * dimension()) *
+    const double as_asked = base_.cpu_seconds *
+                            std::pow(asked_.over(mesh_), cost_exponent * static_cast<double>(mesh_.dimension())) *
                             (explicit_ ? asked_.over(mesh_) : 1);
     logging::info("\nproposal: {}", fmt::join(quoted(proposal), " "));
     logging::info("  within about {} of the answer; about {:.2g} CPU s (the scene as it is: about {:.2g})",
@@ -370,7 +259,7 @@ class Adviser {
   /// Steps of the explicit formulation: c dt = 0.4 h, c^2 = K / rho of the stiffest material.
   void mention_explicit(const Candidate& best) const {
     const auto box = facts_.numbers("mesh.box");
-    if (explicit_ || best.mesh.cells.empty() || is_rod()) return;
+    if (explicit_ || box.empty()) return;
     double fastest = 0;
     for (const std::string& key : facts_.below("materials.")) {
       const auto at = key.find(".volumetric.bulk_modulus");
@@ -389,12 +278,14 @@ class Adviser {
   void write(const Overrides& proposal) const {
     const Overrides all = joined(options_.overrides, proposal);
     const Scene resolved = Scene::read(options_.scene_file, all);
-    if (!is_root()) return;
-    std::ofstream file(options_.apply);
+    std::ofstream file;
+    if (is_root()) file.open(options_.apply);
     file << fmt::format("# {} with what titin advise proposes for \"{}\" within {}.\n", options_.scene_file, quantity_,
                         percent(options_.tolerance))
          << resolved.resolved;
-    if (!file.flush()) throw InputError({fmt::format("{} cannot be written; name another file", options_.apply)});
+    if (any_of(is_root() && !file.flush()))
+      throw InputError(
+          {fmt::format("{} cannot be written; name another file with --apply", in_quotes(options_.apply))});
     logging::info("  written: {}", options_.apply);
   }
 
@@ -406,14 +297,17 @@ class Adviser {
   Overrides common_, taken_;
   MeshChoice asked_, mesh_;  // of the scene; of the probes
   Probe base_, together_;    // as asked; with all simplifications that were taken
-  std::vector<Simplification> list_;
   std::vector<Candidate> candidates_;
-  double simplified_ = 0;
-  bool is_plane_ = false, is_massless_ = false;
+  double simplified_ = 0;  // what those change, added
 };
 
 }  // namespace
 
-void advise(const AdviseOptions& options) { Adviser(options).go(); }
+void advise(const AdviseOptions& options) {
+  std::error_code ignored;
+  if (!options.apply.empty() && any_of(std::filesystem::exists(options.apply, ignored)))
+    throw InputError({fmt::format("{} is there already; name another file with --apply", in_quotes(options.apply))});
+  Adviser(options).go();
+}
 
 }  // namespace titin

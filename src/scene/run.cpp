@@ -1,8 +1,5 @@
 #include "scene/run.hpp"
 
-#include <cmath>
-#include <filesystem>
-
 #include "base/log.hpp"
 #include "base/parallel.hpp"
 #include "base/timers.hpp"
@@ -13,54 +10,13 @@
 #include "io/run_folder.hpp"
 #include "scene/output.hpp"
 #include "scene/progress.hpp"
-#include "scene/restart.hpp"
 #include "scene/run_report.hpp"
 #include "scene/saving.hpp"
-#include "scene/scene.hpp"
+#include "scene/start.hpp"
 #include "scene/stop_signals.hpp"
 
 namespace titin {
 namespace {
-
-std::string folder_of(const RunOptions& options) {
-  if (!options.restart.empty()) return folder_of_restart(options.restart);
-  if (!options.folder.empty()) return options.folder;
-  const std::string name = std::filesystem::path(options.scene_file).stem().string();
-  const bool is_folder = name.empty() || name == "." || name == "..";  // of a scene called "...toml"
-  return "results/" + (is_folder ? "scene" : name);
-}
-
-struct Start {
-  Scene scene;
-  FoundCheckpoint checkpoint;  // of a restart
-};
-
-Scene read_scene(const RunOptions& options, const FoundCheckpoint& from) {
-  if (!options.scene_file.empty()) return Scene::read(options.scene_file, options.overrides);
-  return Scene::of_text(from.head.scene, from.path, options.overrides);
-}
-
-/// All input errors at once: those of the scene, of the folder and of the checkpoint.
-Start read(const RunOptions& options) {
-  Timers::Scope timer("set-up");
-  Start start;
-  std::vector<std::string> messages, others;
-  const bool again = !options.restart.empty();
-  if (again) start.checkpoint = find_checkpoint(options.restart);
-  others.push_back(again ? start.checkpoint.problem : RunFolder::problem(folder_of(options), options.overwrite));
-  const bool readable = !again || start.checkpoint.problem.empty() || !options.scene_file.empty();
-  if (readable) try {
-      start.scene = read_scene(options, start.checkpoint);
-      if (again && start.checkpoint.problem.empty())
-        others = restart_problems(start.checkpoint.path, start.checkpoint.head, start.scene);
-    } catch (const InputError& error) {
-      messages = error.messages();
-    }
-  std::erase(others, "");
-  messages.insert(messages.end(), others.begin(), others.end());
-  if (!messages.empty()) throw InputError(messages);
-  return start;
-}
 
 /// One run: the loop, and run.json around it.
 class Run {
@@ -290,29 +246,8 @@ class Run {
 
 Outcome run(const RunOptions& options) {
   const StopSignals signals;  // from here on: one that comes while the scene is read stops before the first step
-  Start start = read(options);
+  Start start = read_start(options);
   return Run(start, options, signals).go();
-}
-
-void check_scene(const RunOptions& options) {
-  const Scene scene = Scene::read(options.scene_file, options.overrides);
-  Model& model = *scene.model;
-  const double steps = std::ceil(scene.clock.end / scene.clock.step * (1 - 1e-9));
-  logging::info("{}: can be run", options.scene_file);
-  if (!scene.title.empty()) logging::info("  title     {}", scene.title);
-  logging::info("  model     {}", model.name());
-  logging::info("  ranks     {}", ranks());
-  logging::info("  cells     {}", model.mesh().GetGlobalNE());
-  logging::info("  unknowns  {}", model.unknowns());
-  if (scene.clock.by_stability)
-    logging::info("  time      explicit steps, the first of {:.4g} s, to {:g} s",
-                  std::min(scene.clock.step, model.largest_dt()), scene.clock.end);
-  else
-    logging::info("  time      {} of {:g} s to {:g} s", count(steps, "step"), scene.clock.step, scene.clock.end);
-  std::string fields;
-  for (const Field& field : model.fields()) fields += (fields.empty() ? "" : ", ") + field.name;
-  logging::info("  fields    {}", fields);
-  logging::info("  output    {}", folder_of(options));
 }
 
 }  // namespace titin

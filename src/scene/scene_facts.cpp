@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "scene/scene.hpp"
+
 namespace titin {
 
 SceneFacts::SceneFacts(const std::vector<std::string>& settings) {
@@ -38,6 +40,13 @@ std::vector<double> SceneFacts::numbers(const std::string& key) const {
 double SceneFacts::number(const std::string& key) const {
   const auto list = numbers(key);
   return list.empty() ? std::numeric_limits<double>::quiet_NaN() : list[0];
+}
+
+int SceneFacts::whole(const std::string& key) const {
+  if (has(key)) return static_cast<int>(number(key));
+  for (const KeyRecord& record : scene_keys())
+    if (record.path == key && !record.default_value.empty()) return std::stoi(record.default_value);
+  return 1;
 }
 
 std::vector<std::string> SceneFacts::below(const std::string& prefix) const {
