@@ -1,5 +1,8 @@
-/// A plane box of triangles whose cuts do not all run along one diagonal: boxes cut by diagonals in turn, so that the
-/// mesh has no direction, or each cut into four around its middle, so that all corners of boxes have eight triangles.
+/// Boxes of simplices whose cuts do not all run along one diagonal, so that the mesh has no direction.
+///
+/// Alternating: cut by diagonals in turn, into two triangles or five tetrahedra. Crossed: into four triangles around
+/// the middle, or into 24 tetrahedra around the middle of the box and those of its faces: what is alike in all its
+/// directions.
 #pragma once
 
 #include <mfem.hpp>
@@ -8,7 +11,8 @@
 
 namespace titin {
 
-/// [0, a] x [0, b] in nx by ny boxes; boundaries by MFEM's numbers: 1 y-, 2 x+, 3 y+, 4 x-.
-mfem::Mesh make_plane_triangles(int nx, int ny, double a, double b, BoxCuts cuts);
+/// `cells` boxes along each edge of [0, edge[0]] x ..., two or three of them; boundaries as MFEM numbers those of its
+/// own boxes: y- x+ y+ x-, or z- y- x+ y+ x- z+.
+mfem::Mesh make_cut_box(const std::vector<int>& cells, const std::vector<double>& edge, BoxCuts cuts);
 
 }  // namespace titin

@@ -10,8 +10,8 @@
 
 #include "base/parallel.hpp"
 #include "base/words.hpp"
+#include "mesh/cut_box.hpp"
 #include "mesh/gmsh.hpp"
-#include "mesh/plane_triangles.hpp"
 
 namespace titin {
 
@@ -50,13 +50,15 @@ mfem::Mesh make_cells(const MeshConfig& config, NamedMesh& named) {
   const auto& edge = config.box;
   const auto& n = config.cells;
   const bool tensor = config.kind == BoxCells::tensor;
-  if (edge.size() == 2) {
+  if (edge.size() == 2)
     named.boundaries = {{"y-", 1}, {"x+", 2}, {"y+", 3}, {"x-", 4}};
-    if (config.cuts != BoxCuts::same) return make_plane_triangles(n[0], n[1], edge[0], edge[1], config.cuts);
+  else
+    named.boundaries = {{"z-", 1}, {"y-", 2}, {"x+", 3}, {"y+", 4}, {"x-", 5}, {"z+", 6}};
+  if (config.cuts != BoxCuts::same) return make_cut_box(n, edge, config.cuts);
+  if (edge.size() == 2) {
     const auto type = tensor ? Element::QUADRILATERAL : Element::TRIANGLE;
     return mfem::Mesh::MakeCartesian2D(n[0], n[1], type, true, edge[0], edge[1]);
   }
-  named.boundaries = {{"z-", 1}, {"y-", 2}, {"x+", 3}, {"y+", 4}, {"x-", 5}, {"z+", 6}};
   const auto type = tensor                               ? Element::HEXAHEDRON
                     : config.kind == BoxCells::simplices ? Element::TETRAHEDRON
                                                          : Element::WEDGE;
@@ -150,9 +152,8 @@ bool is_a_box(const MeshConfig& config, Section& section) {
                   "give one for each edge");
   else if (config.kind == BoxCells::wedges && config.box.size() == 2)
     section.error("kind", "a plane body has no wedges", "take tensor or simplices");
-  else if (config.cuts != BoxCuts::same && (config.kind != BoxCells::simplices || config.box.size() != 2))
-    section.error("cuts", "only triangles of a plane box can be cut in other ways",
-                  "take kind = \"simplices\", or drop it");
+  else if (config.cuts != BoxCuts::same && config.kind != BoxCells::simplices)
+    section.error("cuts", "only simplices can be cut in other ways", "take kind = \"simplices\", or drop it");
   else
     return has_fit_interfaces(config, section);
   return false;
@@ -171,10 +172,12 @@ bool names_one_mesh(const MeshConfig& config, Section& section) {
 }
 
 double cells_of_box(const MeshConfig& config) {
-  const int parts = config.kind == BoxCells::tensor                                ? 1
-                    : config.kind == BoxCells::simplices && config.box.size() == 3 ? 6
-                    : config.cuts == BoxCuts::crossed                              ? 4
-                                                                                   : 2;
+  const bool plane = config.box.size() == 2, simplices = config.kind == BoxCells::simplices;
+  const int parts = config.kind == BoxCells::tensor       ? 1
+                    : config.cuts == BoxCuts::crossed     ? (plane ? 4 : 24)
+                    : plane || !simplices                 ? 2
+                    : config.cuts == BoxCuts::alternating ? 5
+                                                          : 6;
   return std::accumulate(config.cells.begin(), config.cells.end(), double(parts), std::multiplies<>());
 }
 
@@ -222,8 +225,9 @@ void MeshConfig::bind(Section& s) {
                    "2 wedges"});
   s.choose(
       "cuts", cuts, {{"same", BoxCuts::same}, {"alternating", BoxCuts::alternating}, {"crossed", BoxCuts::crossed}},
-      {.doc = "of a plane box into triangles: all boxes along the same diagonal, along one and the other in turn, or "
-              "each along both into four"});
+      {.doc =
+           "of a box into simplices: all along the same diagonal, along one and the other in turn (5 tetrahedra), or "
+           "each into 4 triangles or 24 tetrahedra around its middle, alike in all directions"});
   s.read("interfaces", interfaces,
          {.unit = "m",
           .range = positive,

@@ -13,7 +13,7 @@
 namespace titin {
 
 enum class BoxCells { tensor, simplices, wedges };
-enum class BoxCuts { same, alternating, crossed };  // of a plane box's cells into triangles
+enum class BoxCuts { same, alternating, crossed };  // of a box into simplices
 
 struct MeshConfig {
   std::vector<double> box;           // edge lengths [m] of [0,a]x[0,b](x[0,c]); none: no box

@@ -1,7 +1,10 @@
 // Boxes and Gmsh files become meshes with names; files that are no good get a sentence.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "base/parallel.hpp"
@@ -57,8 +60,9 @@ double area(const NamedMesh& named, const std::string& boundary) {
   for (int face = 0; face < named.mesh->GetNBE(); ++face) {
     if (!marker[named.mesh->GetBdrAttribute(face) - 1]) continue;
     auto& map = *named.mesh->GetBdrElementTransformation(face);
-    map.SetIntPoint(&mfem::Geometries.GetCenter(mfem::Geometry::SQUARE));
-    mine += map.Weight();  // plane parallelograms: one point is exact
+    const auto shape = named.mesh->GetBdrElementBaseGeometry(face);
+    map.SetIntPoint(&mfem::Geometries.GetCenter(shape));
+    mine += mfem::Geometry::Volume[shape] * map.Weight();  // plane parallelograms and triangles: one point is exact
   }
   return sum(mine);
 }
@@ -84,6 +88,46 @@ TEST(Box, IsPartedIntoRegionsAcrossX) {
             std::string::npos);
   EXPECT_NE(error("box = \"30, 20 mm\"\ncells = [3, 2]\ninterfaces = \"20, 10 mm\"\n").find("does not lie beyond"),
             std::string::npos);
+}
+
+TEST(Box, IsCutIntoSimplicesThatFillIt) {
+  const std::string plane = "box = \"30, 20 mm\"\ncells = [3, 2]\n",
+                    space = "box = \"30, 20, 10 mm\"\ncells = [3, 2, 2]\n";
+  const struct {
+    std::string box, cuts;
+    int cells, nodes;
+  } cases[] = {{plane, "same", 12, 12}, {plane, "alternating", 12, 12}, {plane, "crossed", 24, 18},
+               {space, "same", 72, 36}, {space, "alternating", 60, 36}, {space, "crossed", 288, 36 + 12 + 52}};
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.box + c.cuts);
+    const NamedMesh box = read(c.box + "kind = \"simplices\"\ncuts = \"" + c.cuts + "\"\n");
+    const bool is_plane = c.box == plane;
+    EXPECT_EQ(box.mesh->GetGlobalNE(), c.cells);
+    if (ranks() == 1) EXPECT_EQ(box.mesh->GetNV(), c.nodes);
+    EXPECT_NEAR(volume(box, "body"), is_plane ? 6e-4 : 6e-6, 1e-18);
+    const double depth = is_plane ? 1 : 0.01;
+    for (const char* name : {"x-", "x+"}) EXPECT_NEAR(area(box, name), 0.02 * depth, 1e-16) << name;
+    for (const char* name : {"y-", "y+"}) EXPECT_NEAR(area(box, name), 0.03 * depth, 1e-16) << name;
+    if (is_plane) continue;
+    for (const char* name : {"z-", "z+"}) EXPECT_NEAR(area(box, name), 6e-4, 1e-16) << name;
+  }
+}
+
+// In the corner at the origin no direction of a cube is before another: cells there are turned into each other.
+TEST(Box, WithoutADirectionLooksAlikeAlongItsAxes) {
+  for (const char* cuts : {"alternating", "crossed"}) {
+    const NamedMesh box =
+        read("box = \"2, 2, 2 m\"\ncells = [2, 2, 2]\nkind = \"simplices\"\ncuts = \"" + std::string(cuts) + "\"\n");
+    std::multiset<std::array<double, 3>> centres, turned;
+    for (int cell = 0; cell < box.mesh->GetNE(); ++cell) {
+      mfem::Vector x;
+      box.mesh->GetElementCenter(cell, x);
+      const auto place = [&](int i) { return std::round(1e6 * x(i % 3)); };
+      centres.insert({place(0), place(1), place(2)});
+      turned.insert({place(1), place(2), place(0)});
+    }
+    if (ranks() == 1) EXPECT_EQ(centres, turned) << cuts;
+  }
 }
 
 TEST(Gmsh, NamesRegionsAndBoundariesAndNumbersTheRest) {
