@@ -24,7 +24,6 @@ Mat3 upper_factor(const Mat3& C) {
   return R;
 }
 
-Mat3 inverse(const Mat3& A) { return scaled(1 / determinant(A), transpose(cofactor(A))); }
 Mat3 right_cauchy_green(const Mat3& F) { return multiply(transpose(F), F); }
 
 Mat3 mean(const Mat3& A, const Mat3& B) {

@@ -13,16 +13,15 @@ namespace {
 constexpr double same_deformation = 0.01;
 /// Another cell's speed is taken at this distance: no more, or runs would depend on how cells are shared by ranks.
 constexpr double alike = 1e-12;
-constexpr int batch = 64;  // points of stress held at a time
 
 class FluidClosure final : public Closure {
  public:
-  explicit FluidClosure(std::shared_ptr<const Fluid> fluid) : fluid_(std::move(fluid)) {}
-  bool is_solid() const override { return false; }
+  explicit FluidClosure(std::shared_ptr<const Fluid> fluid) : Closure(Kind::fluid), fluid_(std::move(fluid)) {}
   void stress(const CellBatch& in, Sym3* T) const override {
     for (int i = 0; i < in.n; ++i) T[i] = pressing(fluid_->state(in.density[i], in.energy[i]).pressure);
   }
-  void stress_and_speed(const CellBatch& in, WaveMemory*, Sym3* T, double* speed) const override {
+  void stress_and_speed(const CellBatch& in, WaveMemory*, Sym3* T, double* speed, double* psi) const override {
+    if (psi) stored(in, psi);
     for (int i = 0; i < in.n; ++i) {
       const Fluid::State s = fluid_->state(in.density[i], in.energy[i]);
       T[i] = pressing(s.pressure);
@@ -38,30 +37,31 @@ class FluidClosure final : public Closure {
   std::shared_ptr<const Fluid> fluid_;
 };
 
+Closure::Kind kind_of(const Material& solid) {
+  const auto& terms = solid.terms();
+  const auto works = [](const TermInfo& t) { return !t.stores_energy || t.has_curves; };
+  return std::any_of(terms.begin(), terms.end(), works) ? Closure::Kind::active : Closure::Kind::solid;
+}
+
 class SolidClosure final : public Closure {
  public:
-  explicit SolidClosure(std::shared_ptr<const Material> material) : material_(std::move(material)) {}
-  bool is_solid() const override { return true; }
+  explicit SolidClosure(std::shared_ptr<const Material> material)
+      : Closure(kind_of(*material)), material_(std::move(material)) {}
 
-  void stress(const CellBatch& in, Sym3* T) const override {
-    std::array<Mat3, batch> P;
-    for (int first = 0; first < in.n; first += batch) {
-      const PointInput points = points_of(in, first);
-      material_->stress(points, P.data(), nullptr);
-      for (int i = 0; i < points.n; ++i) T[first + i] = cauchy(P[i], points.F[i]);
-    }
-  }
+  void stress(const CellBatch& in, Sym3* T) const override { material_->cauchy_stress(points_of(in), T, nullptr); }
 
-  void stress_and_speed(const CellBatch& in, WaveMemory* memory, Sym3* T, double* speed) const override {
-    stress(in, T);
+  void stress_and_speed(const CellBatch& in, WaveMemory* memory, Sym3* T, double* speed, double* psi) const override {
+    material_->cauchy_stress(points_of(in), T, psi);
+    if (psi) per_mass(in.n, psi);
     WaveMemory last;  // bodies at rest are deformed alike everywhere
     for (int i = 0; i < in.n; ++i) {
       const Sym3 C = right_cauchy_green(in.F[i]);
       WaveMemory& known = memory[in.cell[i]];
       if (!near(C, known, same_deformation)) {
         if (!near(C, last, alike)) {
-          PointInput point = points_of(in, i);
+          PointInput point = points_of(in);
           point.n = 1;
+          point.F += i;
           last.C = C;
           fastest_wave(*material_, point, &last.speed);
         }
@@ -79,23 +79,15 @@ class SolidClosure final : public Closure {
   }
 
   std::vector<double> kinks() const override { return material_->kinks(); }
-  bool does_work() const override {
-    const auto& terms = material_->terms();
-    return std::any_of(terms.begin(), terms.end(), [](const TermInfo& t) { return !t.stores_energy || t.has_curves; });
-  }
   bool has_fibres() const override { return material_->has_fibres(); }
   void fibre_stretch(const CellBatch& in, double* stretch) const override {
-    std::array<double, batch> rate, activation;
-    for (int first = 0; first < in.n; first += batch)
-      material_->fibre_state(points_of(in, first), stretch + first, rate.data(), activation.data());
+    std::vector<double> rate(in.n), activation(in.n);
+    material_->fibre_state(points_of(in), stretch, rate.data(), activation.data());
   }
 
   void stored(const CellBatch& in, double* psi) const override {
-    for (int first = 0; first < in.n; first += batch) {
-      const PointInput points = points_of(in, first);
-      whole_energy(*material_, points, psi + first);
-      for (int i = 0; i < points.n; ++i) psi[first + i] /= material_->density();
-    }
+    whole_energy(*material_, points_of(in), psi);
+    per_mass(in.n, psi);
   }
 
   double energy_at(double, double) const override {
@@ -108,18 +100,13 @@ class SolidClosure final : public Closure {
   }
 
  private:
-  /// P F^T / J, symmetric as it is, and U'(J) I of the volumetric law.
-  Sym3 cauchy(const Mat3& P, const Mat3& F) const {
-    const double J = determinant(F), over_J = 1 / J, slope = material_->volumetric(J).dU;
-    const auto row = [&](int i, int j) {
-      return over_J * (P[3 * i] * F[3 * j] + P[3 * i + 1] * F[3 * j + 1] + P[3 * i + 2] * F[3 * j + 2]);
-    };
-    return {row(0, 0) + slope, row(1, 1) + slope, row(2, 2) + slope, row(0, 1), row(1, 2), row(0, 2)};
+  void per_mass(int n, double* psi) const {
+    for (int i = 0; i < n; ++i) psi[i] /= material_->density();
   }
-  static PointInput points_of(const CellBatch& in, int first) {
+  static PointInput points_of(const CellBatch& in) {
     PointInput points;
-    points.n = std::min(batch, in.n - first);
-    points.F = in.F + first;
+    points.n = in.n;
+    points.F = in.F;
     points.time = in.time;
     return points;
   }

@@ -34,13 +34,17 @@ struct CellBatch {
 
 class Closure {
  public:
+  enum class Kind { fluid, solid, active };
+  explicit Closure(Kind kind) : kind_(kind) {}
   virtual ~Closure() = default;
-  virtual bool is_solid() const = 0;
+  bool is_solid() const { return kind_ != Kind::fluid; }
+  /// Does its stress also do work that no stored energy tells (active fibres)?
+  bool does_work() const { return kind_ == Kind::active; }
   /// Cauchy stress [Pa] of n cells; not a number where there is none.
   virtual void stress(const CellBatch& in, Sym3* T) const = 0;
-  /// The same, and the speed of the fastest wave [m/s]. `memory` [cell] is the caller's, kept from step to
-  /// step.
-  virtual void stress_and_speed(const CellBatch& in, WaveMemory* memory, Sym3* T, double* speed) const = 0;
+  /// The same, the speed of the fastest wave [m/s] and, unless null, what `stored` says. `memory` [cell] is the
+  /// caller's, kept from step to step.
+  virtual void stress_and_speed(const CellBatch& in, WaveMemory* memory, Sym3* T, double* speed, double* psi) const = 0;
   /// Of a solid's volumetric law at a volume ratio: energy [J/m^3] and its derivative [Pa]; none for the rest.
   struct Volumetric {
     double U, dU;
@@ -52,12 +56,13 @@ class Closure {
   virtual std::vector<double> kinks() const { return {}; }  ///< times at which an activation has a kink [s]
   /// Is this a state the material is good for?
   virtual bool admissible(double density, double energy) const = 0;
-  /// Does its stress also do work that no stored energy tells (active fibres)?
-  virtual bool does_work() const { return false; }
   /// Energy stored without heat [J/kg]: what a solid gives back. Fluids store none.
   virtual void stored(const CellBatch& in, double* psi) const = 0;
   /// Specific internal energy [J/kg] of an undeformed solid, or of a fluid at this pressure.
   virtual double energy_at(double density, double pressure) const = 0;
+
+ private:
+  Kind kind_;
 };
 
 /// Shared laws stay as they are; a closure holds no state of cells.

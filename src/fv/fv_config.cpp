@@ -49,6 +49,9 @@ void FvConfig::bind(Section& s) {
       {.range = positive,
        .doc = "a fluid is shocked, and loses its slopes, in a cell that shrinks while its nodes differ from its mean "
               "velocity by more than this part of the wave speed"});
+  s.read("rest", rest,
+         {.range = non_negative,
+          .doc = "a fluid's cell that has lost its slopes stays without them while a wave crosses it this many times"});
   s.read("heat_tolerance", heat_tolerance,
          {.range = non_negative,
           .doc = "a solid's cell whose heat falls, and is below minus this part of its stored energy and of the motion "

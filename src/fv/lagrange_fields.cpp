@@ -43,7 +43,7 @@ void LagrangeFields<D>::write(std::span<const int> cells, const Closure& closure
   for (std::size_t b = 0; b < cells.size(); ++b) {
     F[b] = scheme_.deformation(cells[b], state);
     density[b] = state.cell[cells[b]].density;
-    energy[b] = scheme_.internal_energy(cells[b], state);
+    energy[b] = state.internal_energy(cells[b]);
   }
   const CellBatch batch{static_cast<int>(cells.size()), F.data(), density.data(), energy.data(), nullptr, time};
   closure.stress(batch, T.data());

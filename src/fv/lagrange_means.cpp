@@ -30,7 +30,7 @@ double LagrangeMeans<D>::pressure_volume(const Box& box, double time) const {
     for (std::size_t b = 0; b < run.size(); ++b) {
       F[b] = scheme_.deformation(run[b], state);
       density[b] = state.cell[run[b]].density;
-      energy[b] = scheme_.internal_energy(run[b], state);
+      energy[b] = state.internal_energy(run[b]);
     }
     closure.stress({static_cast<int>(run.size()), F.data(), density.data(), energy.data(), nullptr, time}, T.data());
     for (std::size_t b = 0; b < run.size(); ++b)

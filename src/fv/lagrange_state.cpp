@@ -26,7 +26,7 @@ std::vector<long> node_numbers(const SimplexMesh<D>& cells, const std::vector<lo
 
 template <int D>
 void FlowScheme<D>::walk(StateWalk& walk, const StateRows& cells, const StateRows& nodes) {
-  constexpr int numbers = field_count<D> + D + 9 + 6 + 1;
+  constexpr int numbers = field_count<D> + D + 10 + 6 + 1;
   walk.number("largest_dt", largest_dt_);
   walk.records("state", cells, numbers, [&](std::size_t c, auto take) {
     CellRecord<D>& record = now_.cell[c];
@@ -34,7 +34,7 @@ void FlowScheme<D>::walk(StateWalk& walk, const StateRows& cells, const StateRow
     for (double& x : record.centre) take(x);
     double order = static_cast<double>(mood_.order(static_cast<int>(c)));
     for (double* x : {&record.density, &now_.energy[c], &now_.stored[c], &now_.most_heat[c], &now_.volume[c],
-                      &now_.speed[c], &now_.crossing[c], &stiffening_[c], &waves_[c].speed, &order})
+                      &now_.speed[c], &now_.crossing[c], &stiffening_[c], &rest_[c], &waves_[c].speed, &order})
       take(*x);
     mood_.set_order(static_cast<int>(c), static_cast<CellOrder>(static_cast<int>(order)));
     for (double& x : waves_[c].C) take(x);

@@ -56,7 +56,7 @@ std::vector<Quantity> motion_errors(const FlowScheme<D>& scheme, const ExactMoti
     for (std::size_t b = 0; b < run.size(); ++b) {
       F[b] = scheme.deformation(run[b], scheme.state());
       density[b] = scheme.state().cell[run[b]].density;
-      energy[b] = scheme.internal_energy(run[b], scheme.state());
+      energy[b] = scheme.state().internal_energy(run[b]);
     }
     closure.stress({static_cast<int>(run.size()), F.data(), density.data(), energy.data(), nullptr, time}, T.data());
     for (std::size_t b = 0; b < run.size(); ++b) {

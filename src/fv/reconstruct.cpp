@@ -174,19 +174,6 @@ void Reconstruction<D>::limit(int cell, const FlowState<D>& state, Slopes<D>& g)
     for (double& component : g[f]) component *= factor[f >= D];
 }
 
-template <int D>
-std::array<typename Reconstruction<D>::Range, Reconstruction<D>::judged_count> Reconstruction<D>::ranges(
-    int cell) const {
-  std::array<Range, judged_count> range;
-  range.fill({std::numeric_limits<double>::infinity(), nothing});
-  for (int p : mesh_.nodes_of[cell])
-    for (int k = 0; k < judged_count; ++k) {
-      range[k].high = std::max(range[k].high, judged_[p].high[k]);
-      range[k].low = std::min(range[k].low, -judged_[p].minus_low[k]);
-    }
-  return range;
-}
-
 template class Reconstruction<2>;
 template class Reconstruction<3>;
 

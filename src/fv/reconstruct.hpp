@@ -13,6 +13,8 @@
 /// for all components of the velocity and one for those of the stress, so that it does not depend on the axes.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "fv/boundary.hpp"
@@ -59,8 +61,15 @@ class Reconstruction {
   struct Range {
     double low, high;
   };
-  /// Of each of these over the cells that share a node with this one, itself included.
-  std::array<Range, judged_count> ranges(int cell) const;
+  /// Of the k-th of these over the cells that share a node with this one, itself included.
+  Range range(int cell, int k) const {
+    Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (int p : mesh_.nodes_of[cell]) {
+      range.high = std::max(range.high, judged_[p].high[k]);
+      range.low = std::min(range.low, -judged_[p].minus_low[k]);
+    }
+    return range;
+  }
 
  private:
   static constexpr int fields = field_count<D>;

@@ -12,13 +12,6 @@
 namespace titin {
 namespace {
 
-/// A step whose cells change their volumes by more than this many times the bound it was chosen for is taken again.
-constexpr double volume_margin = 2;
-/// A cell whose nodes miss its linear velocity by less than this part of their differences is strained as a whole,
-/// which no jump in it does.
-constexpr double linear_flow = 0.05;
-/// Part of a cell's energy that is round-off in its heat.
-constexpr double heat_round_off = 1e-12;
 std::vector<int> numbers(int n) {
   std::vector<int> list(n);
   std::iota(list.begin(), list.end(), 0);
@@ -48,12 +41,14 @@ FlowScheme<D>::FlowScheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, co
       all_nodes_(numbers(mesh.nodes())),
       waves_(mesh.cells()),
       stiffening_(mesh.cells()),
+      rest_(mesh.cells()),
       boundary_(mesh, exchange, std::move(conditions)),
       reconstruction_(mesh, exchange, boundary_.mirrors()),
       nodes_(mesh, exchange, boundary_),
       mood_(mesh, exchange, config.cascade),
       now_(mesh.cells(), mesh.nodes()),
       next_(mesh.cells(), mesh.nodes()),
+      judgement_({mesh, config_, closure_, reconstruction_, now_, next_}),
       half_x_(mesh.x) {
   troubled_.reserve(mesh.cells());
   now_.x = next_.x = mesh.x;
@@ -66,8 +61,6 @@ FlowScheme<D>::FlowScheme(const SimplexMesh<D>& mesh, NodeExchange& exchange, co
     const Vector<D> v = velocity_of<D>(now_.cell[c].q);
     now_.energy[c] = start[c].energy + 0.5 * dot(v, v);
   }
-  judges_heat_ = config_.order == 2 && config_.limiter == Limiter::mood && !config_.patch_pressure &&
-                 std::none_of(start.begin(), start.end(), [](const CellStart& c) { return c.closure->does_work(); });
   if (config_.patch_pressure) patches_ = std::make_unique<PatchPressure<D>>(mesh, exchange, closure_);
   update(all_, 0, 0);  // without forces: completes the state
   std::swap(now_, next_);
@@ -100,12 +93,6 @@ Mat3 FlowScheme<D>::deformation(int cell, const FlowState<D>& state) const {
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j) full[3 * i + j] = F[D * i + j];
   return full;
-}
-
-template <int D>
-double FlowScheme<D>::internal_energy(int cell, const FlowState<D>& state) const {
-  const Vector<D> v = velocity_of<D>(state.cell[cell].q);
-  return state.energy[cell] - 0.5 * dot(v, v);
 }
 
 template <int D>
@@ -149,6 +136,8 @@ void FlowScheme<D>::half_step(double t, double dt) {
 template <int D>
 void FlowScheme<D>::solve_all(double dt, CellOrder order) {
   mood_.start(order);
+  for (int c = 0; c < mesh_.cells(); ++c)
+    if (rest_[c] > 0) mood_.set_order(c, CellOrder::constant);
   if (order != CellOrder::constant) reconstruction_.gather(*source_.state);
   if (order == CellOrder::limited) reconstruction_.gather_ranges(*source_.state);
   find_corners(all_, dt);
@@ -158,12 +147,11 @@ void FlowScheme<D>::solve_all(double dt, CellOrder order) {
 template <int D>
 void FlowScheme<D>::load(int b, int cell, PredictedBlock<D>& block) const {
   const FlowState<D>& state = *source_.state;
-  block.g[b] = {};
-  if (mood_.order(cell) != CellOrder::constant) block.g[b] = reconstruction_.slopes(cell, state);
+  block.g[b] = mood_.order(cell) == CellOrder::constant ? Slopes<D>{} : reconstruction_.slopes(cell, state);
   if (mood_.order(cell) == CellOrder::limited) reconstruction_.limit(cell, state, block.g[b]);
   block.q[b] = state.cell[cell].q;
   block.density[b] = state.cell[cell].density;
-  block.energy[b] = internal_energy(cell, state);
+  block.energy[b] = state.internal_energy(cell);
   block.shift[b] = stress_shift(cell);
   block.F[b] = closure_[cell]->is_solid() ? deformation(cell, state) : identity;
 }
@@ -247,13 +235,13 @@ void FlowScheme<D>::update(std::span<const int> cells, double t, double dt) {
       diameter[b] = inner_diameter<D>(next_.volume[c], corner_normals<D>(x));
       density[b] = next_.cell[c].density = mass_[c] / next_.volume[c];
       next_.cell[c].centre = centroid<D>(x);
-      energy[b] = internal_energy(c, next_);
+      energy[b] = next_.internal_energy(c);
       F[b] = closure.is_solid() ? deformation(c, next_) : identity;
     }
+    const bool wants_heat = judgement_.asks_for_heat(closure);
     closure.stress_and_speed({n, F.data(), density.data(), energy.data(), run.data(), t + dt}, waves_.data(), T.data(),
-                             speed.data());
-    if (judges_heat_ && closure.is_solid()) {
-      closure.stored({n, F.data(), nullptr, nullptr, nullptr, t + dt}, psi.data());
+                             speed.data(), wants_heat ? psi.data() : nullptr);
+    if (wants_heat) {
       for (int b = 0; b < n; ++b) {
         next_.stored[run[b]] = psi[b];
         next_.most_heat[run[b]] = std::max(now_.most_heat[run[b]], energy[b] - psi[b]);
@@ -267,111 +255,15 @@ void FlowScheme<D>::update(std::span<const int> cells, double t, double dt) {
   });
 }
 
-/// Computer and physics: numbers, a volume, a state that the material knows.
-template <int D>
-bool FlowScheme<D>::has_meaning(int cell) const {
-  const CellRecord<D>& c = next_.cell[cell];
-  const double sum = std::accumulate(c.q.begin(), c.q.end(), next_.energy[cell] + next_.speed[cell]);
-  const double change = std::abs(next_.volume[cell] - now_.volume[cell]);
-  return std::isfinite(sum) && next_.volume[cell] > 0 &&
-         change <= volume_margin * config_.volume_change * now_.volume[cell] &&
-         closure_[cell]->admissible(c.density, internal_energy(cell, next_));
-}
-
-/// The maximum principle, which a smooth flow may leave: a compression without a jump raises the largest density too,
-/// and a body that is accelerated as a whole leaves all its velocities.
-template <int D>
-bool FlowScheme<D>::in_trouble(int cell, double dt) const {
-  if (!has_meaning(cell) || is_shocked(cell) || has_lost_heat(cell)) return true;
-  constexpr int judged = Reconstruction<D>::judged_count;
-  const CellRecord<D>& before = now_.cell[cell];
-  const double c = now_.speed[cell];
-  std::array<double, judged> scale{before.density, before.density * c * c};
-  std::fill_n(scale.begin() + 2, D, c);
-  const auto candidate = Reconstruction<D>::judged(next_.cell[cell]);
-  const auto ranges = reconstruction_.ranges(cell);
-  for (int k = 0; k < (closure_[cell]->is_solid() ? 1 : judged); ++k) {
-    const auto& [low, high] = ranges[k];
-    const double allowed = std::max(config_.principle_tolerance * scale[k], config_.range_tolerance * (high - low));
-    if (candidate[k] >= low - allowed && candidate[k] <= high + allowed) continue;
-    const Slopes<D> g = reconstruction_.slopes(cell, *source_.state);
-    const double gained = k < 2 ? 0 : dt / before.density * divergence_of_stress<D>(g)[k - 2];
-    if (candidate[k] >= low + std::min(gained, 0.0) - allowed && candidate[k] <= high + std::max(gained, 0.0) + allowed)
-      continue;
-    return !is_smooth(cell, node_jumps(cell, g));
-  }
-  return false;
-}
-
-/// Is a fluid compressed within the cell by a good part of its wave speed, and not as one linear flow? Slopes take a
-/// shock that spreads over their neighbours for a smooth compression: the cell then meets no resistance, takes up no
-/// heat, and collapses.
-template <int D>
-bool FlowScheme<D>::is_shocked(int cell) const {
-  if (closure_[cell]->is_solid() || next_.cell[cell].density <= now_.cell[cell].density) return false;
-  const Vector<D> mean = mean_velocity(cell);
-  const double least = config_.shock_jump * now_.speed[cell];
-  const auto& nodes = mesh_.nodes_of[cell];
-  if (std::none_of(nodes.begin(), nodes.end(), [&](int p) { return norm(difference(next_.v[p], mean)) > least; }))
-    return false;
-  const NodeJumps at = node_jumps(cell, reconstruction_.slopes(cell, *source_.state));
-  return at.jump > linear_flow * at.variation;
-}
-
-/// Has a solid lost heat that it had, by more than slopes hide of motion within the cell, where slopes are
-/// worse than none?
-/// Constant cells make heat alone.
-template <int D>
-bool FlowScheme<D>::has_lost_heat(int cell) const {
-  if (!judges_heat_ || !closure_[cell]->is_solid()) return false;
-  const double heat = internal_energy(cell, next_) - next_.stored[cell],
-               before = internal_energy(cell, now_) - now_.stored[cell], loss = now_.most_heat[cell] - heat;
-  const double part = config_.heat_tolerance, round_off = heat_round_off * next_.energy[cell];
-  if (heat >= before || loss <= part * next_.stored[cell] + round_off) return false;
-  const NodeJumps at = node_jumps(cell, reconstruction_.slopes(cell, *source_.state));
-  const double within = 0.5 * at.variation * at.variation;
-  return loss > part * (next_.stored[cell] + within) + round_off && at.jump > at.variation && !is_smooth(cell, at);
-}
-
-/// Over the step.
-template <int D>
-Vector<D> FlowScheme<D>::mean_velocity(int cell) const {
-  Vector<D> mean = velocity_of<D>(now_.cell[cell].q);
-  for (int i = 0; i < D; ++i) mean[i] = 0.5 * (mean[i] + next_.cell[cell].q[i]);
-  return mean;
-}
-
-template <int D>
-typename FlowScheme<D>::NodeJumps FlowScheme<D>::node_jumps(int cell, const Slopes<D>& g) const {
-  const FlowState<D>& from = *source_.state;
-  const Vector<D> mean = mean_velocity(cell);
-  NodeJumps at;
-  for (int p : mesh_.nodes_of[cell]) {
-    const Vector<D> s = difference(from.x[p], from.cell[cell].centre);
-    Vector<D> rest = difference(next_.v[p], mean);
-    at.variation = std::max(at.variation, norm(rest));
-    for (int i = 0; i < D; ++i) rest[i] -= dot(g[i], s);
-    at.jump = std::max(at.jump, norm(rest));
-  }
-  return at;
-}
-
-/// Do the cell's nodes move as its own linear velocity says? Where the flow is smooth they do but for terms of second
-/// order in its size, at jumps they do not.
-template <int D>
-bool FlowScheme<D>::is_smooth(int cell, const NodeJumps& at) const {
-  return at.jump <= std::max(config_.smooth_jump * at.variation, config_.small_jump * now_.speed[cell]);
-}
-
 template <int D>
 std::string FlowScheme<D>::judge(double t, double dt) {
-  const bool cascade = config_.order == 2 && config_.limiter == Limiter::mood;
+  const bool cascade = has_cascade();
   bool ranges = false;
   std::span<const int> cells = all_;
   while (cascade) {
     troubled_.clear();
     for (int c : cells)
-      if (mood_.order(c) != CellOrder::constant && in_trouble(c, dt)) troubled_.push_back(c);
+      if (mood_.order(c) != CellOrder::constant && judgement_.in_trouble(c, *source_.state, dt)) troubled_.push_back(c);
     if (!mood_.lower(troubled_)) break;
     if (!ranges) reconstruction_.gather_ranges(*source_.state);
     ranges = true;
@@ -390,7 +282,7 @@ template <int D>
 std::string FlowScheme<D>::failure(bool judged) const {
   const auto is_wrong = [&](int c) {
     const bool passed = judged && mood_.order(c) != CellOrder::constant;
-    return !passed && !has_meaning(c);
+    return !passed && !judgement_.has_meaning(c);
   };
   const auto wrong = std::find_if(all_.begin(), all_.end(), is_wrong);
   const bool failed = wrong != all_.end();
@@ -401,7 +293,7 @@ std::string FlowScheme<D>::failure(bool judged) const {
     std::copy(now_.cell[*wrong].centre.begin(), now_.cell[*wrong].centre.end(), facts.begin());
     facts[3] = next_.volume[*wrong] / now_.volume[*wrong];
     facts[4] = next_.cell[*wrong].density;
-    facts[5] = internal_energy(*wrong, next_);
+    facts[5] = next_.internal_energy(*wrong);
     for (double& fact : facts)
       if (!std::isfinite(fact)) fact = std::numeric_limits<double>::max();  // sums of others stay numbers
   }
@@ -416,6 +308,11 @@ template <int D>
 void FlowScheme<D>::accept(double dt) {
   // Steps that the clock shortened, to land on a time, do not hold back the next ones.
   largest_dt_ = std::min((1 + config_.growth) * std::max(dt, largest_dt_), next_dt(dt));
+  for (int c = 0; c < mesh_.cells() && has_cascade(); ++c)
+    if (rest_[c] > 0)
+      rest_[c] -= dt / next_.crossing[c];
+    else if (mood_.order(c) == CellOrder::constant && !closure_[c]->is_solid())
+      rest_[c] = config_.rest;
   std::swap(now_, next_);
   if (patches_) patches_->apply(now_);
 }

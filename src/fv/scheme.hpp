@@ -6,8 +6,9 @@
 /// with total specific energy e, corner forces and nodal velocities of fv/nodal_solver.hpp. The first equation is
 /// solved exactly by the nodes themselves, rho_c = m_c / |w_c|, as is dF/dt = L F by F_c = D_s D_m^-1
 /// (mesh/simplex_geometry.hpp). One step: half way nodes, slopes, cells at the middle of the step, corner forces in the
-/// half way geometry, nodal velocities, update, judgement (fv/mood.hpp). Maire (2009), J. Comput. Phys. 228:2391;
-/// Boscheri, Loubere, Maire (2022), J. Comput. Phys. 449:110779. Units SI; in the plane per unit thickness.
+/// half way geometry, nodal velocities, update, judgement (fv/judgement.hpp, fv/mood.hpp). Maire (2009), J. Comput.
+/// Phys. 228:2391; Boscheri, Loubere, Maire (2022), J. Comput. Phys. 449:110779. Units SI; in the plane per unit
+/// thickness.
 #pragma once
 
 #include <memory>
@@ -15,6 +16,7 @@
 #include <string>
 
 #include "fv/closure.hpp"
+#include "fv/judgement.hpp"
 #include "fv/mood.hpp"
 #include "fv/nodal_solver.hpp"
 #include "fv/patch_pressure.hpp"
@@ -54,7 +56,6 @@ class FlowScheme {
   double mass(int cell) const { return mass_[cell]; }
   CellOrder order(int cell) const { return mood_.order(cell); }
   Mat3 deformation(int cell, const FlowState<D>& state) const;
-  double internal_energy(int cell, const FlowState<D>& state) const;
   /// By how much averaged pressures change the mean stress [Pa] and the stored energy [J/kg] of the accepted state.
   double stress_shift(int cell) const { return patches_ ? patches_->stress(cell) : 0; }
   double stored_shift(int cell) const;
@@ -72,6 +73,7 @@ class FlowScheme {
     double predicted;  // time from the state to the forces, doubled [s]; 0: none
   };
   CellOrder first_order() const;
+  bool has_cascade() const { return config_.order == 2 && config_.limiter == Limiter::mood; }
   void solve_all(double dt, CellOrder order);
   void find_corners(std::span<const int> cells, double t);
   void load(int b, int cell, PredictedBlock<D>& block) const;
@@ -79,17 +81,6 @@ class FlowScheme {
   void move(std::span<const int> nodes, double dt);
   void update(std::span<const int> cells, double t, double dt);
   void take_forces(int cell, double dt);
-  bool in_trouble(int cell, double dt) const;
-  struct NodeJumps {       // largest over a cell's nodes [m/s]
-    double variation = 0;  // from its mean velocity
-    double jump = 0;       // from its linear velocity
-  };
-  NodeJumps node_jumps(int cell, const Slopes<D>& g) const;
-  bool is_shocked(int cell) const;
-  bool has_lost_heat(int cell) const;
-  Vector<D> mean_velocity(int cell) const;
-  bool is_smooth(int cell, const NodeJumps& at) const;
-  bool has_meaning(int cell) const;
   std::string judge(double t, double dt);
   std::string failure(bool judged) const;
   double next_dt(double dt) const;
@@ -105,17 +96,18 @@ class FlowScheme {
   std::vector<int> all_, all_nodes_, troubled_;
   mutable std::vector<WaveMemory> waves_;
   std::vector<double> stiffening_;  // by which shocks are faster than sound [m/s]
+  std::vector<double> rest_;        // crossings of a wave for which a cell stays constant
   Boundary<D> boundary_;
   Reconstruction<D> reconstruction_;
   NodalSolver<D> nodes_;
   Mood<D> mood_;
   FlowState<D> now_, next_;
+  Judgement<D> judgement_;
   std::unique_ptr<FlowState<D>> half_;         // of rk2 alone
   std::unique_ptr<PatchPressure<D>> patches_;  // of fv.patch_pressure alone
   std::vector<Vector<D>> half_x_;
   Source source_{};
   double largest_dt_ = 0;
-  bool judges_heat_ = false;       // do all solids store energy, and does MOOD ask for it?
   bool nodes_have_moved_ = false;  // is there a velocity of nodes to compare cells with?
 };
 

@@ -57,6 +57,12 @@ struct FlowState {
         x(nodes),
         v(nodes) {}
 
+  /// Specific [J/kg].
+  double internal_energy(int c) const {
+    const Vector<D> v = velocity_of<D>(cell[c].q);
+    return energy[c] - 0.5 * dot(v, v);
+  }
+
   std::vector<CellRecord<D>> cell;
   std::vector<double> energy;     // total specific [J/kg]
   std::vector<double> stored;     // of it, by a solid without heat [J/kg]; 0 where nobody asks

@@ -15,6 +15,14 @@ void add_volumetric_tangent(const Mat3& Ft, double first, double second, Mat9& A
 
 }  // namespace
 
+Sym3 cauchy(const Mat3& P, const Mat3& F) {
+  const double over_J = 1 / determinant(F);
+  const auto row = [&](int i, int j) {
+    return over_J * (P[3 * i] * F[3 * j] + P[3 * i + 1] * F[3 * j + 1] + P[3 * i + 2] * F[3 * j + 2]);
+  };
+  return {row(0, 0), row(1, 1), row(2, 2), row(0, 1), row(1, 2), row(0, 2)};
+}
+
 void whole_stress(const Material& material, const PointInput& in, Mat3* P, Mat9* A) {
   material.stress(in, P, A);
   for (int p = 0; p < in.n; ++p) {
@@ -26,6 +34,18 @@ void whole_stress(const Material& material, const PointInput& in, Mat3* P, Mat9*
     Mat3 Ft = G;
     for (double& x : Ft) x /= J;
     add_volumetric_tangent(Ft, J * U.dU, J * J * U.d2U, A[p]);
+  }
+}
+
+void Material::cauchy_stress(const PointInput& in, Sym3* T, double* W) const {
+  std::vector<Mat3> P(in.n);
+  stress(in, P.data(), nullptr);
+  if (W) potential(in, W);
+  for (int p = 0; p < in.n; ++p) {
+    const Volumetric U = volumetric(determinant(in.F[p]));
+    T[p] = cauchy(P[p], in.F[p]);
+    for (int i = 0; i < 3; ++i) T[p][i] += U.dU;
+    if (W) W[p] += U.U;
   }
 }
 

@@ -20,7 +20,7 @@ T volume_change(const Tensor3<T>& H) {
 }
 
 template <class T>
-Tensor3<T> green_strain(const Tensor3<T>& H) {
+Tensor3<T> strain_of_change(const Tensor3<T>& H) {
   Tensor3<T> E = multiply(transpose(H), H);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) E[3 * i + j] = 0.5 * (E[3 * i + j] + H[3 * i + j] + H[3 * j + i]);
@@ -83,7 +83,7 @@ void deform(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fi
   Tensor3<T> H = F;
   for (int i = 0; i < 9; i += 4) H[i] -= 1.0;
   k.F = F;
-  k.E = green_strain(H);
+  k.E = strain_of_change(H);
   k.J_1 = volume_change(H);
   k.J = determinant(F);  // not 1 + J_1, which loses the digits of small volumes
   k.y = inverse_cbrt(k.J);

@@ -66,6 +66,7 @@ class InvariantSet {
     return false;
   }
   constexpr bool has(Invariant a) const { return bits_ >> index(a) & 1u; }
+  constexpr bool empty() const { return bits_ == 0; }
   constexpr bool has_rate() const { return has_any({Invariant::rate, Invariant::rate6}); }
 
  private:

@@ -12,7 +12,7 @@
 
 #include "base/config.hpp"
 #include "materials/invariants.hpp"
-#include "math/tensor.hpp"
+#include "math/symmetric.hpp"
 
 namespace titin {
 
@@ -74,7 +74,10 @@ class Material {
   /// First Piola stress P [Pa] (n values) of all terms but the volumetric law and, unless null, its derivative A =
   /// dP/dF. NaN where det F <= 0: a caller that meets such points gives up the step before.
   virtual void stress(const PointInput& in, Mat3* P, Mat9* A) const = 0;
-  /// The same of one term alone (weights of mixtures included).
+  /// Cauchy stress T [Pa] of all terms and of the volumetric law at J = det F and, unless null, their `potential` W
+  /// with that of the law [J/m^3]. NaN as above. For formulations that move with the material.
+  virtual void cauchy_stress(const PointInput& in, Sym3* T, double* W) const;
+  /// The same as `stress` of one term alone (weights of mixtures included).
   virtual void term_stress(int term, const PointInput& in, Mat3* P) const = 0;
   /// Stored energy per reference volume [J/m^3] of one term (0 for terms that store none).
   virtual void term_energy(int term, const PointInput& in, double* W) const = 0;

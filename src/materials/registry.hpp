@@ -46,6 +46,8 @@ class VolumetricLaw {
   };
   virtual ~VolumetricLaw() = default;
   virtual Value evaluate(double ratio) const = 0;
+  /// Adds weight times U and dU of n ratios.
+  virtual void add(int n, const double* ratio, double weight, double* U, double* dU) const = 0;
 };
 
 /// What a material's term knows besides the law's own parameters.
@@ -166,6 +168,13 @@ class VolumetricAdaptor final : public VolumetricLaw {
   Value evaluate(double ratio) const override {
     const Dual<1> U = law_.energy(Dual<1>::variable(ratio, 0));
     return {U.value, U.gradient[0], U.hessian[0]};
+  }
+  void add(int n, const double* ratio, double weight, double* U, double* dU) const override {
+    for (int i = 0; i < n; ++i) {
+      const auto value = law_.energy(Dual<1, 1>::variable(ratio[i], 0));
+      U[i] += weight * value.value;
+      dU[i] += weight * value.gradient[0];
+    }
   }
 
  private:

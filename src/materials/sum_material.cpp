@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "materials/compressible.hpp"
+
 namespace titin {
 namespace {
 
@@ -79,6 +81,29 @@ class Block {
       }
       scatter(assemble_tangent(kinematics_[g], used_, W, tangent), P, first, end_);
       scatter(tangent, A, first, end_);
+    }
+  }
+
+  /// Cauchy stress, and with `laws` that of the volumetric laws and their energy.
+  void write_cauchy(std::span<const WeightedVolumetric> laws, Sym3* T, double* energy) const {
+    alignas(Lanes) BlockValues J, U{}, dU{};
+    for (int g = 0; g < active_groups(); ++g)
+      kinematics_[g].J.copy_to(&J[g * lane_count], std::experimental::element_aligned);
+    for (const WeightedVolumetric& v : laws) v.law->add(points.n, J.data(), v.weight, U.data(), dU.data());
+    if (energy)
+      for (int p = 0; p < points.n; ++p) energy[p] += U[p];
+    for (int g = 0; g < active_groups(); ++g) {
+      EnergyDerivatives<Lanes> W;
+      set_derivatives(g, W);
+      const Kinematics<Lanes>& k = kinematics_[g];
+      const Tensor3<Lanes> P = assemble_stress(k, used_, W);
+      const Lanes over_J = 1.0 / k.J, slope = load(dU, g);
+      const auto row = [&](int i, int j) {
+        return over_J * (P[3 * i] * k.F[3 * j] + P[3 * i + 1] * k.F[3 * j + 1] + P[3 * i + 2] * k.F[3 * j + 2]);
+      };
+      const std::array<Lanes, 6> stress{row(0, 0) + slope, row(1, 1) + slope, row(2, 2) + slope,
+                                        row(0, 1),         row(1, 2),         row(0, 2)};
+      scatter(stress, T, first_ + g * lane_count, end_);
     }
   }
 
@@ -172,6 +197,27 @@ void SumMaterial::evaluate(const PointInput& in, std::span<const WeightedTerm> t
 }
 
 void SumMaterial::stress(const PointInput& in, Mat3* P, Mat9* A) const { evaluate(in, terms(in.part), P, A); }
+
+void SumMaterial::cauchy_stress(const PointInput& in, Sym3* T, double* W) const {
+  const auto parts = terms(in.part);
+  const InvariantSet used = used_by(parts);
+  if (W) std::fill_n(W, in.n, 0.0);
+  for (int first = 0; first < in.n; first += block_size) {
+    Block block(in, first, used, parts_, parts_.measure);
+    block.differentiate(parts, false);
+    block.write_cauchy(parts_.volumetric, T, W ? W + first : nullptr);
+    for (const WeightedTerm& t : parts) {
+      if (W) t.term->add_potential(block.points, t.weight, W + first);
+      if (!t.term->uses().empty()) continue;
+      std::array<Mat3, block_size> P{};  // written in no invariants
+      t.term->add_stress(block.points, t.weight, P.data(), nullptr);
+      for (int p = 0; p < block.points.n; ++p) {
+        const Sym3 own = cauchy(P[p], in.F[first + p]);
+        for (int k = 0; k < 6; ++k) T[first + p][k] += own[k];
+      }
+    }
+  }
+}
 
 void SumMaterial::term_stress(int term, const PointInput& in, Mat3* P) const {
   evaluate(in, {&parts_.terms[term], 1}, P, nullptr);

@@ -46,6 +46,7 @@ class SumMaterial final : public Material {
   const std::vector<TermInfo>& terms() const override { return infos_; }
 
   void stress(const PointInput& in, Mat3* P, Mat9* A) const override;
+  void cauchy_stress(const PointInput& in, Sym3* T, double* W) const override;
   void term_stress(int term, const PointInput& in, Mat3* P) const override;
   void term_energy(int term, const PointInput& in, double* W) const override;
   void potential(const PointInput& in, double* W) const override;

@@ -28,7 +28,7 @@ double heat(const Flow<2>& flow) {
     in.F = &F;
     double psi;
     flow.closure->stored(in, &psi);
-    whole[0] += scheme.mass(c) * (scheme.internal_energy(c, scheme.state()) - psi);
+    whole[0] += scheme.mass(c) * (scheme.state().internal_energy(c) - psi);
   }
   sum(whole);
   return whole[0];
