@@ -12,5 +12,6 @@ Line(3) = {3, 1};
 Curve Loop(1) = {1, 2, 3};
 Plane Surface(1) = {1};
 Physical Surface("gas") = {1};
-Physical Curve("planes") = {1, 3};
+Physical Curve("y-") = {1};
 Physical Curve("outside") = {2};
+Physical Curve("x-") = {3};
