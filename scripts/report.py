@@ -3,8 +3,11 @@
 
     scripts/report.py results/block                writes results/block/report.html
     scripts/report.py results/block -o block.html --field pressure
+    scripts/report.py --gallery                    docs/verification/gallery.md again: all that is verified, on one page
+    scripts/report.py --gallery --check            is that page up to date? exit code 1 if not
+    scripts/report.py --gallery --measure          first runs the small version of every scene again (minutes) and keeps its numbers
 
-The file stands alone: pictures are inside, and a browser asks nobody for anything to show it.
+The file of a run stands alone: pictures are inside, and a browser asks nobody for anything to show it.
 The first call puts PyVista and others (from PyPI) into a virtual environment in the cache; it takes about a minute.
 """
 import argparse
@@ -17,7 +20,10 @@ import re
 import sys
 
 import environment
+import gallery
 
+if "--gallery" in sys.argv[1:]:
+    gallery.main()  # draws nothing, and does not come back
 environment.enter()
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402

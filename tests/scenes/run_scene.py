@@ -2,10 +2,12 @@
 """Runs one scene small, as its [test] table says, and holds the numbers it gives against those it must give.
 
     run_scene.py SCENE --titin build/bin/titin [--ranks 2] [--scratch DIR]
+    run_scene.py SCENE --record FILE  also appends what was found to a CSV, from which scripts/report.py --gallery makes its page
     run_scene.py --list FOLDER        every scene below that has a [test], with its numbers of ranks
 
     [test]
     set = ["mesh.cells=[2, 2, 2]"]   # overrides that make it small
+    against = "closed form"          # what the numbers are held against, for the page of all that is verified; optional
     exit = 2                         # exit code, 0 when not said
     reason = "(?P<x>...) at .* s"    # regular expression that `reason` of run.json must match, of a run that fails
     ranks = [1, 2]                   # the first writes the history that the others must repeat
@@ -49,6 +51,7 @@ TOP = pathlib.Path(__file__).resolve().parent.parent.parent
 MPI_ENVIRONMENT = dict(re.findall(r"\b(OMPI_\w+)=(\S+)", (TOP / "scripts" / "mpi_environment").read_text()))
 DEFAULT_RANK_TOLERANCE = 1e-6
 SAME_TIME = 1e-9  # [s], well below any step
+RECORDED = ["scene", "what", "value", "expected", "difference", "tolerance"]
 
 
 def test_of(scene):
@@ -78,6 +81,17 @@ class Checks:
 
     def passed(self):
         return bool(self.rows) and all(row[-1] for row in self.rows)
+
+    def record(self, file, scene):
+        """Appends the rows that hold numbers, and what became of the reason."""
+        new = not file.exists()
+        with open(file, "a", newline="") as out:
+            rows = csv.writer(out, lineterminator="\n")
+            if new:
+                rows.writerow(RECORDED)
+            for what, *numbers, _ in self.rows:
+                if what == "reason" or what != "exit code" and isinstance(numbers[0], (int, float)):
+                    rows.writerow([scene, what, *(f"{x:.9g}" if isinstance(x, float) else "" if x is None else x for x in numbers)])
 
     def print(self):
         def text(x):
@@ -234,6 +248,7 @@ def main():
     parser.add_argument("--titin", type=pathlib.Path, default=TOP / "build" / "bin" / "titin")
     parser.add_argument("--mpirun", default="mpirun")
     parser.add_argument("--scratch", type=pathlib.Path)
+    parser.add_argument("--record", type=pathlib.Path, metavar="FILE")
     arguments = parser.parse_args()
     if arguments.list:
         return list_scenes(arguments.list)
@@ -263,6 +278,8 @@ def main():
         if arguments.ranks != first:
             check_ranks(checks, test, history, scratch / f"np{first}", arguments.ranks)
     checks.print()
+    if arguments.record:
+        checks.record(arguments.record, arguments.scene.resolve().relative_to(TOP / "configs").as_posix())
     return 0 if checks.passed() else 1
 
 
