@@ -7,6 +7,8 @@
     scripts/bench.py swinging_plate --again "P1"  runs the sweeps whose name begins so again
     scripts/bench.py muscle_block --truth         makes its over-refined histories again (its [[truth]], scripts/bench_truth.py)
     scripts/bench.py --quick NAME...      the small cases, into a folder of work; asserts orders and the place of our defaults
+    scripts/bench.py --compare REV        speed of this tree over that of a revision: the small cases and the micro-benchmarks, in turn
+    scripts/bench.py --compare REV swinging_plate tangent_speed configs/lagrange/sedov.toml      of these benches, programs and scenes alone
 
 A bench is a file of configs/bench/:
 
@@ -48,6 +50,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
+import bench_compare  # noqa: E402
 import bench_truth  # noqa: E402
 import environment  # noqa: E402
 from batch import ROOT, Problem, check_scene, guarded  # noqa: E402
@@ -63,6 +66,8 @@ def parse_arguments():
     parser.add_argument("--truth", action="store_true", help="make the over-refined histories again, nothing else")
     parser.add_argument("--again", metavar="SWEEP", help="run the sweeps whose name begins so again ('' for all)")
     parser.add_argument("--quick", action="store_true", help="only small cases; asserts what must hold, writes nothing into docs")
+    parser.add_argument("--compare", metavar="REV", help="build a revision as well and print ratios of CPU seconds; writes nothing into docs")
+    parser.add_argument("--repetitions", type=int, default=5, help="of each case of --compare")
     parser.add_argument("--titin", default=str(ROOT / "build" / "bin" / "titin"), help="the program")
     parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("results") / "bench", help="folder of the runs")
     return parser.parse_args()
@@ -131,8 +136,21 @@ def check_quick(bench, rows):
     return wrong
 
 
+def compare(options):
+    """Of names: benches, scenes, and programs of micro-benchmarks; without any all benches that have small cases, and all programs."""
+    names = options.names or sorted(path.stem for path in BENCHES.glob("*.toml"))
+    programs = [name for name in bench_compare.MICRO if name in names or not options.names]
+    benches = [open_bench(name, options) for name in names if name not in programs and not name.endswith(".toml")]
+    runs = [run for bench in benches if options.names or any(line.quick for line in bench.lines) for run in bench_compare.runs_of(bench)]
+    runs += [bench_compare.run_of(name, options.work.absolute()) for name in names if name.endswith(".toml")]
+    bench_compare.compare(options.compare, runs, programs, options)
+    return 0
+
+
 def main():
     options = parse_arguments()
+    if options.compare:
+        return compare(options)
     if not options.names:
         for path in sorted(BENCHES.glob("*.toml")):
             print(f"{path.stem:24} {Bench(path, options.work).title}")
