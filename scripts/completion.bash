@@ -119,6 +119,7 @@ fv.patch_pressure
 fv.predictor
 fv.principle_tolerance
 fv.range_tolerance
+fv.rest
 fv.shock_impedance
 fv.shock_jump
 fv.small_jump

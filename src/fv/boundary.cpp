@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "base/log.hpp"
+#include "base/parallel.hpp"
+#include "base/words.hpp"
+
 namespace titin {
 namespace {
 
@@ -9,6 +13,8 @@ namespace {
 constexpr double independent = 1e-6;
 /// Faces lie in one plane when the size of the sum of their area vectors is this part of the sum of their areas.
 constexpr double plane = 1 - 1e-9;
+/// Less than this: faces of a corner (of more than 74 degrees, where two meet), and not of a curved wall.
+constexpr double corner = 0.8;
 
 template <int D>
 std::array<Vector<D>, D> complement(const Directions<D>& given) {
@@ -124,6 +130,7 @@ void Boundary<D>::take_rules() {
     const bool moves = condition.velocity_at ||
                        std::any_of(condition.velocity.begin(), condition.velocity.end(), [](auto* t) { return t; });
     if (!condition.normal_velocity && !moves && !condition.has_obstacle) continue;
+    bool has_corner = false;
     for (int attribute : condition.attributes) {
       std::vector<std::array<double, D + 1>> area(mesh_.nodes());  // sum of the area vectors, and of the areas
       for (const auto& face : mesh_.boundary) {
@@ -142,6 +149,7 @@ void Boundary<D>::take_rules() {
           Vector<D> n;
           std::copy_n(area[p].begin(), D, n.begin());
           const double size = norm(n);
+          has_corner = has_corner || size < corner * area[p][D];
           for (double& component : n) component /= size;
           rules.walls.emplace_back(static_cast<int>(c), n);
           if (condition.mirrors && size > plane * area[p][D]) take_mirror(p, n);
@@ -150,6 +158,10 @@ void Boundary<D>::take_rules() {
         if (condition.has_obstacle) rules.obstacles.push_back(static_cast<int>(c));
       }
     }
+    if (any_of(has_corner))
+      logging::warning("boundary " + in_quotes(condition.name) +
+                       ": faces of one name meet at a corner, whose nodes move as if it were rounded; give its sides "
+                       "names of their own");
   }
 }
 

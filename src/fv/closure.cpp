@@ -10,7 +10,7 @@ namespace {
 
 /// A speed is sought anew when C has changed by this part of itself: the speed, and with it the impedance, is then off
 /// by no more than about as much, which changes dissipation of the scheme, not its order.
-constexpr double same_deformation = 0.01;
+constexpr double same_deformation = 0.03;
 /// Another cell's speed is taken at this distance: no more, or runs would depend on how cells are shared by ranks.
 constexpr double alike = 1e-12;
 

@@ -97,7 +97,8 @@ typename Judgement<D>::NodeJumps Judgement<D>::node_jumps(int cell, const FlowSt
     const Vector<D> s = difference(from.x[p], from.cell[cell].centre);
     Vector<D> rest = difference(after.v[p], mean);
     at.variation = std::max(at.variation, norm(rest));
-    for (int i = 0; i < D; ++i) rest[i] -= dot(g[i], s);
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) rest[i] -= g[j][i] * s[j];
     at.jump = std::max(at.jump, norm(rest));
   }
   return at;

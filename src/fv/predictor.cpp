@@ -14,7 +14,7 @@ template <int D>
 Matrix<D> velocity_gradient(const Slopes<D>& g) {
   Matrix<D> G;
   for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) G[D * i + j] = g[i][j];
+    for (int j = 0; j < D; ++j) G[D * i + j] = g[j][i];
   return G;
 }
 
@@ -25,12 +25,12 @@ Vector<D> divergence(const Slopes<D>& g, const Matrix<D>& A) {
   Vector<D> sum{};
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
-      for (int m = 0; m < D; ++m) sum[i] += g[D + symmetric_index<D>(i, j)][m] * A[D * m + j];
+      for (int m = 0; m < D; ++m) sum[i] += g[m][D + symmetric_index<D>(i, j)] * A[D * m + j];
   return sum;
 }
 
 template <int D>
-double power(const CellFields<D>& q, const Matrix<D>& G) {
+double power(const PackedFields<D>& q, const Matrix<D>& G) {
   double sum = 0;
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j) sum += q[D + symmetric_index<D>(i, j)] * G[D * i + j];

@@ -21,7 +21,7 @@ template <int D>
 struct PredictedBlock {
   int n = 0;
   std::array<Slopes<D>, cells_per_block> g;
-  std::array<CellFields<D>, cells_per_block> q;         // in: at the start of the step; out: at its middle
+  std::array<PackedFields<D>, cells_per_block> q;       // in: at the start of the step; out: at its middle
   std::array<Mat3, cells_per_block> F;                  // solids; in and out alike
   std::array<double, cells_per_block> density, energy;  // specific internal
   std::array<double, cells_per_block> shift;            // of the mean stress (fv/patch_pressure.hpp), held

@@ -31,15 +31,24 @@ Symmetric<D> reflected(const Symmetric<D>& S, const Vector<D>& n) {
   return image;
 }
 
-/// Velocity and stress of the image of a cell.
 template <int D>
-CellFields<D> reflected_fields(const CellFields<D>& q, const Vector<D>& n) {
-  Vector<D> v = velocity_of<D>(q);
+Vector<D> reflected(Vector<D> v, const Vector<D>& n) {
   accumulate(v, -2 * dot(n, v), n);
-  const Symmetric<D> T = reflected<D>(stress_of<D>(q), n);
-  CellFields<D> image;
+  return v;
+}
+
+/// Velocity, stress and place of the image of a cell.
+template <int D>
+PackedFields<D> reflected_fields(const PackedFields<D>& u, const Vector<D>& n) {
+  const Vector<D> v = reflected<D>(velocity_of<D>(u), n);
+  const Symmetric<D> T = reflected<D>(stress_of<D>(u), n);
+  Vector<D> r;
+  std::copy_n(u.begin() + field_count<D>, D, r.begin());
+  r = reflected<D>(r, n);
+  PackedFields<D> image{};
   std::copy(v.begin(), v.end(), image.begin());
   std::copy(T.begin(), T.end(), image.begin() + D);
+  std::copy(r.begin(), r.end(), image.begin() + field_count<D>);
   return image;
 }
 
@@ -58,23 +67,26 @@ Reconstruction<D>::Reconstruction(const SimplexMesh<D>& mesh, NodeExchange& exch
 /// Of the images of all cells behind the plane.
 template <int D>
 typename Reconstruction<D>::Moments Reconstruction<D>::image(const Moments& m, const Vector<D>& n) {
-  Moments im = m;
-  accumulate(im.wr, -2 * dot(n, m.wr), n);
-  im.wrr = reflected<D>(m.wrr, n);
-  im.wq = reflected_fields<D>(m.wq, n);
-  CellFields<D> along{};
+  Moments im;
+  im.w = m.w;
+  im.wu = reflected_fields<D>(m.wu, n);
+  PackedFields<D> along{};
   for (int i = 0; i < D; ++i) {
-    im.wrq[i] = reflected_fields<D>(m.wrq[i], n);
-    accumulate(along, n[i], im.wrq[i]);
+    im.wru[i] = reflected_fields<D>(m.wru[i], n);
+    titin::accumulate(along, n[i], im.wru[i]);
   }
-  for (int i = 0; i < D; ++i) accumulate(im.wrq[i], -2 * n[i], along);
+  for (int i = 0; i < D; ++i) titin::accumulate(im.wru[i], -2 * n[i], along);
   return im;
 }
 
 template <int D>
 void Reconstruction<D>::gather(const FlowState<D>& state) {
   for (int p = 0; p < mesh_.nodes(); ++p) {
-    Moments m;
+    double w_sum = 0;
+    std::array<Registers<D>, D + 1> sum{};
+    PackedFields<D> place{};
+    std::copy_n(state.x[p].begin(), D, place.begin() + fields);
+    const Registers<D> node = load_registers<D>(place.data());
     JudgedExtremes range;
     range.high.fill(nothing);
     range.minus_low.fill(nothing);
@@ -82,18 +94,21 @@ void Reconstruction<D>::gather(const FlowState<D>& state) {
       const CellRecord<D>& c = state.cell[mesh_.corners[k] / (D + 1)];
       const Vector<D> r = difference(c.centre, state.x[p]);
       const double w = 1 / dot(r, r);
-      m.w += w;
-      accumulate(m.wr, w, r);
-      add_square<D>(m.wrr, w, r);
-      accumulate(m.wq, w, c.q);
-      for (int i = 0; i < D; ++i) accumulate(m.wrq[i], w * r[i], c.q);
+      w_sum += w;
+      Registers<D> u = c.packed();
+      for (int k = 0; k < packed_registers<D>; ++k) u[k] -= node[k];
+      accumulate<D>(sum[0], w, u);
+      for (int i = 0; i < D; ++i) accumulate<D>(sum[1 + i], w * r[i], u);
       const auto values = judged(c);
       for (int k = 0; k < judged_count; ++k) {
         range.high[k] = std::max(range.high[k], values[k]);
         range.minus_low[k] = std::max(range.minus_low[k], -values[k]);
       }
     }
-    moments_[p] = m;
+    Moments& m = moments_[p];
+    m.w = w_sum;
+    store_registers<D>(sum[0], m.wu);
+    for (int i = 0; i < D; ++i) store_registers<D>(sum[1 + i], m.wru[i]);
     judged_[p] = range;
   }
   exchange_.sum(&moments_[0].w, sizeof(Moments) / sizeof(double));
@@ -128,17 +143,21 @@ template <int D>
 Slopes<D> Reconstruction<D>::slopes(int cell, const FlowState<D>& state) const {
   const CellRecord<D>& c = state.cell[cell];
   Symmetric<D> S{};
-  std::array<CellFields<D>, D> r{};
+  Vector<D> wd{};                        // with d = r + s, from the cell: sum of w d
+  std::array<Registers<D>, D> change{};  // sum of w d u, later of w d (q - Q)
   for (int p : mesh_.nodes_of[cell]) {
     const Moments& m = moments_[p];
-    const Vector<D> s = difference(state.x[p], c.centre);
+    const Vector<D> s = difference(state.x[p], c.centre), wr = m.wr();
+    const Registers<D> wu = load_registers<D>(m.wu.data());
     for (int i = 0; i < D; ++i) {
-      const double first = m.wr[i] + s[i] * m.w;
-      for (int j = i; j < D; ++j)
-        S[symmetric_index<D>(i, j)] += m.wrr[symmetric_index<D>(i, j)] + m.wr[i] * s[j] + s[i] * (m.wr[j] + s[j] * m.w);
-      for (int f = 0; f < fields; ++f) r[i][f] += m.wrq[i][f] + s[i] * m.wq[f] - c.q[f] * first;
+      const Registers<D> wru = load_registers<D>(m.wru[i].data());
+      for (int k = 0; k < packed_registers<D>; ++k) change[i][k] += wru[k] + s[i] * wu[k];
+      const double first = wr[i] + s[i] * m.w;
+      wd[i] += first;
+      for (int j = i; j < D; ++j) S[symmetric_index<D>(i, j)] += m.wru[i][fields + j] + s[i] * wr[j] + s[j] * first;
     }
   }
+  for (int i = 0; i < D; ++i) accumulate<D>(change[i], -wd[i], c.packed());
   Slopes<D> g{};
   Symmetric<D> inverse;
   const double determinant = cofactors<D>(S, inverse);
@@ -146,9 +165,11 @@ Slopes<D> Reconstruction<D>::slopes(int cell, const FlowState<D>& state) const {
   for (int i = 0; i < D; ++i) trace += S[i];
   if (!(determinant > singular * trace * trace * (D == 3 ? trace : 1))) return g;
   for (double& entry : inverse) entry /= determinant;
-  for (int f = 0; f < fields; ++f)
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j) g[f][i] += inverse[symmetric_index<D>(i, j)] * r[j][f];
+  for (int i = 0; i < D; ++i) {
+    Registers<D> slope{};
+    for (int j = 0; j < D; ++j) accumulate<D>(slope, inverse[symmetric_index<D>(i, j)], change[j]);
+    store_registers<D>(slope, g[i]);
+  }
   return g;
 }
 
@@ -165,13 +186,14 @@ void Reconstruction<D>::limit(int cell, const FlowState<D>& state, Slopes<D>& g)
   double factor[] = {1, 1}, range[] = {0, 0};  // of velocity, of stress
   for (int f = 0; f < fields; ++f) range[f >= D] = std::max(range[f >= D], up[f] - down[f]);
   for (int p : mesh_.nodes_of[cell]) {
-    const Vector<D> s = difference(state.x[p], c.centre);
+    PackedFields<D> change;
+    store_registers<D>(change_along<D>(difference(state.x[p], c.centre), g), change);
     for (int f = 0; f < fields; ++f)
       factor[f >= D] =
-          std::min(factor[f >= D], kept(dot(g[f], s), up[f] - c.q[f], down[f] - c.q[f], round_off * range[f >= D]));
+          std::min(factor[f >= D], kept(change[f], up[f] - c.q[f], down[f] - c.q[f], round_off * range[f >= D]));
   }
-  for (int f = 0; f < fields; ++f)
-    for (double& component : g[f]) component *= factor[f >= D];
+  for (PackedFields<D>& slope : g)
+    for (int f = 0; f < fields; ++f) slope[f] *= factor[f >= D];
 }
 
 template class Reconstruction<2>;

@@ -22,16 +22,24 @@
 
 namespace titin {
 
-/// g[k][i] = d q_k / d x_i.
+/// g[i][k] = d q_k / d x_i.
 template <int D>
-using Slopes = std::array<Vector<D>, field_count<D>>;
+using Slopes = std::array<PackedFields<D>, D>;
+
+/// s . g: the change of all fields over a way s.
+template <int D>
+Registers<D> change_along(const Vector<D>& s, const Slopes<D>& g) {
+  Registers<D> sum{};
+  for (int i = 0; i < D; ++i) accumulate<D>(sum, s[i], load_registers<D>(g[i].data()));
+  return sum;
+}
 
 /// sum_j d T_ij / d x_j.
 template <int D>
 Vector<D> divergence_of_stress(const Slopes<D>& g) {
   Vector<D> sum{};
   for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) sum[i] += g[D + symmetric_index<D>(i, j)][j];
+    for (int j = 0; j < D; ++j) sum[i] += g[j][D + symmetric_index<D>(i, j)];
   return sum;
 }
 
@@ -52,7 +60,7 @@ class Reconstruction {
 
   /// What steps are judged by: density [kg/m^3], mean stress [Pa], components of the velocity [m/s].
   static constexpr int judged_count = 2 + D;
-  static constexpr int moment_bytes = sizeof(double) * (1 + D + symmetric_size<D> + (1 + D) * field_count<D>);
+  static constexpr int moment_bytes = sizeof(double) + (D + 1) * sizeof(PackedFields<D>);
   static std::array<double, judged_count> judged(const CellRecord<D>& c) {
     std::array<double, judged_count> values{c.density, mean_stress<D>(c.q)};
     std::copy_n(c.q.begin(), D, values.begin() + 2);
@@ -73,12 +81,17 @@ class Reconstruction {
 
  private:
   static constexpr int fields = field_count<D>;
+  /// Over the cells about a node: sum w, w u, w r_i u, where u holds the fields and r. (In the plane one number of u is
+  /// the density, which nobody reads.)
   struct Moments {
     double w = 0;
-    Vector<D> wr{};
-    Symmetric<D> wrr{};
-    CellFields<D> wq{};
-    std::array<CellFields<D>, D> wrq{};
+    PackedFields<D> wu{};
+    std::array<PackedFields<D>, D> wru{};
+    Vector<D> wr() const {
+      Vector<D> r;
+      std::copy_n(wu.begin() + fields, D, r.begin());
+      return r;
+    }
   };
   struct Extremes {  // of all fields; as maxima, so that one exchange does for both
     CellFields<D> high, minus_low;

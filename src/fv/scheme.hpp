@@ -77,13 +77,14 @@ class FlowScheme {
   void solve_all(double dt, CellOrder order);
   void find_corners(std::span<const int> cells, double t);
   void load(int b, int cell, PredictedBlock<D>& block) const;
-  void write_corners(int cell, const Slopes<D>& g, const CellFields<D>& q);
+  void write_corners(int cell, const Slopes<D>& g, const PackedFields<D>& q);
   void move(std::span<const int> nodes, double dt);
   void update(std::span<const int> cells, double t, double dt);
   void take_forces(int cell, double dt);
   std::string judge(double t, double dt);
   std::string failure(bool judged) const;
   double next_dt(double dt) const;
+  void take_rest(double dt);
   double filling_time() const;
   void half_step(double t, double dt);
 

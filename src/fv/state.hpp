@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "math/lanes.hpp"
 #include "math/vector.hpp"
 
 namespace titin {
@@ -14,14 +15,39 @@ inline constexpr int field_count = D + symmetric_size<D>;
 template <int D>
 using CellFields = std::array<double, field_count<D>>;
 
+/// Fields and a vector after them, filled up to whole registers: gathers and slopes work on it at once.
 template <int D>
-Vector<D> velocity_of(const CellFields<D>& q) {
+inline constexpr int packed_registers = (field_count<D> + D + lane_count - 1) / lane_count;
+template <int D>
+using PackedFields = std::array<double, packed_registers<D> * lane_count>;
+template <int D>
+using Registers = std::array<Lanes, packed_registers<D>>;
+
+template <int D>
+Registers<D> load_registers(const double* x) {
+  Registers<D> r;
+  for (int k = 0; k < packed_registers<D>; ++k) r[k].copy_from(x + k * lane_count, std::experimental::element_aligned);
+  return r;
+}
+template <int D>
+void store_registers(const Registers<D>& r, PackedFields<D>& x) {
+  for (int k = 0; k < packed_registers<D>; ++k)
+    r[k].copy_to(x.data() + k * lane_count, std::experimental::element_aligned);
+}
+/// y += s x
+template <int D>
+void accumulate(Registers<D>& y, double s, const Registers<D>& x) {
+  for (int k = 0; k < packed_registers<D>; ++k) y[k] += s * x[k];
+}
+
+template <int D, std::size_t n>
+Vector<D> velocity_of(const std::array<double, n>& q) {
   Vector<D> v;
   for (int i = 0; i < D; ++i) v[i] = q[i];
   return v;
 }
-template <int D>
-Symmetric<D> stress_of(const CellFields<D>& q) {
+template <int D, std::size_t n>
+Symmetric<D> stress_of(const std::array<double, n>& q) {
   Symmetric<D> T;
   for (int k = 0; k < symmetric_size<D>; ++k) T[k] = q[D + k];
   return T;
@@ -35,14 +61,16 @@ double mean_stress(const CellFields<D>& q) {
   return trace / D;
 }
 
-/// One cache line in two dimensions, two in three.
+/// One cache line in two dimensions, two in three; begins with what PackedFields hold.
 template <int D>
 struct alignas(64) CellRecord {
   CellFields<D> q{};
   Vector<D> centre{};  // [m]
   double density = 0;  // [kg/m^3]
+  Registers<D> packed() const { return load_registers<D>(q.data()); }
 };
 static_assert(sizeof(CellRecord<2>) == 64 && sizeof(CellRecord<3>) == 128);
+static_assert(sizeof(PackedFields<2>) <= sizeof(CellRecord<2>) && sizeof(PackedFields<3>) <= sizeof(CellRecord<3>));
 
 template <int D>
 struct FlowState {

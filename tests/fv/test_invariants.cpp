@@ -195,7 +195,7 @@ TYPED_TEST(Invariants, LinearFieldsAreReconstructedOnDistortedMeshes) {
   for (int c = 0; c < cells.cells(); ++c) {
     const auto g = reconstruction.slopes(c, state);
     for (int f = 0; f < field_count<D>; ++f)
-      for (int i = 0; i < D; ++i) EXPECT_NEAR(g[f][i], slope(f, i), 1e-11);
+      for (int i = 0; i < D; ++i) EXPECT_NEAR(g[i][f], slope(f, i), 1e-11);
   }
 }
 
