@@ -14,7 +14,8 @@ A bench is a file of configs/bench/:
 
     title = "The swinging plate"
     reference = "exact for small amplitudes"     # what the error is against; named on the chart
-    error = "velocity_L2"                        # of errors in run.json, or "COLUMN of history, largest" (smallest, last, variation)
+    error = "velocity_L2"                        # of errors in run.json, or "COLUMN of history, largest" (smallest, last, variation,
+                                                 # range: largest minus smallest)
     label = "error of the velocity in L2"        # of the axis
     exact = 0.0                                  # what is taken from it, where it is a value and no error yet
     scale = 1.0                                  # what that is divided by
@@ -27,6 +28,7 @@ A bench is a file of configs/bench/:
     name = "Q2/P1, Newmark"
     default = true                               # optional: what a scene gets that says nothing
     front = false                                # optional, of a default that the chart shows beaten: --quick does not ask that it is on the front
+    exact = 0.5                                  # optional, as error and scale: its own, instead of the bench's
     order = 1.8                                  # optional: asserted by --quick, at least
     quick = 2                                    # optional: its first cases are part of --quick
     scene = "../muscle/swinging_plate.toml"
@@ -36,8 +38,10 @@ A bench is a file of configs/bench/:
     [map]                                        # optional: a map of where methods work instead of curves
     x = "fv.cfl"                                 # keys that the sweeps vary
     y = "fv.predictor"                           # (or "sweep": one row for each)
+    x_ticks = ["0.3", "0.49"]                    # optional: what is written for the values of x (x_label, y_label: for the keys)
     degrades = 10                                # an error of this many times the best one of its row
     or_above = 0.01                              # and, instead, whatever the best: an error above this
+    fails_above = 0.5                            # optional: an error above this is no answer
 
 Runs go one after the other (their CPU seconds are compared) into results/bench/NAME; rows into docs/verification/bench/NAME.csv, which is only
 appended to; the chart is docs/pictures/bench_NAME.png. Needs the Python libraries of python_requirements.txt.

@@ -1,6 +1,7 @@
 """Draws a bench (scripts/bench.py): error against resolution, CPU time and memory; or a map of where methods work."""
 import math
 import re
+import sys
 import textwrap
 
 import matplotlib.pyplot as plt
@@ -83,7 +84,7 @@ def slopes(bench, rows):
 
 
 def classify(bench, row, best):
-    if row.status != "finished" or not math.isfinite(row.error):
+    if row.status != "finished" or not row.error <= bench.map.get("fails_above", sys.float_info.max):
         return FAILS
     limit = bench.map.get("or_above", math.inf)
     return DEGRADES if row.error > bench.map.get("degrades", 10) * best or row.error > limit else WORKS
@@ -103,17 +104,18 @@ def draw_map(bench, rows):
                 colour = classify(bench, row, best)
                 place = (xs.index(px), ys.index(py))
                 axis.add_patch(plt.Rectangle((place[0] - 0.47, place[1] - 0.45), 0.94, 0.9, color=colour, linewidth=0))
-                text = "fails" if colour == FAILS else f"{row.error:.1e}".replace("e-0", "e-").replace("e+00", "")
+                text = "fails" if row.status != "finished" or not math.isfinite(row.error) else f"{row.error:.1e}".replace("e-0", "e-").replace("e+00", "")
                 axis.text(*place, text, ha="center", va="center", fontsize=7, color="white" if colour != DEGRADES else INK)
     axis.set(xlim=(-0.5, len(xs) - 0.5), ylim=(-0.5, len(ys) - 0.5), xticks=range(len(xs)), yticks=range(len(ys)))
-    axis.set_xticklabels([str(x) for x in xs], fontsize=8)
+    axis.set_xticklabels(bench.map.get("x_ticks", [str(x) for x in xs]), fontsize=8)
     axis.set_yticklabels([str(y) for y in ys], fontsize=8)
     axis.grid(False)
     axis.tick_params(length=0)
     axis.set_xlabel(bench.map.get("x_label", x_key))
     axis.set_ylabel(bench.map.get("y_label", "" if y_key == "sweep" else y_key))
-    wide = int(14 * figure.get_figwidth()) - 12
-    axis.set_title("\n".join([bench.title, *textwrap.wrap(f"{bench.label}; against: {bench.reference}", wide)]), fontsize=9)
+    wide = int(13 * figure.get_figwidth())
+    text = "\n".join([bench.title, *textwrap.wrap(f"{bench.label}; against: {bench.reference}", wide)])
+    figure.suptitle(text, fontsize=9, fontweight="bold", x=0.01, ha="left")
     handles = [plt.Rectangle((0, 0), 1, 1, color=c) for c in (WORKS, DEGRADES, FAILS)]
     figure.legend(handles, ["works", "degrades", "fails"], loc="outside lower center", ncols=3, frameon=False, fontsize=8)
     return figure

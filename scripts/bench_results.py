@@ -17,7 +17,7 @@ from sweep_cases import Sweep
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TRUTHS = ROOT / "docs" / "verification" / "bench" / "reference"
 CHART_KEYS = {"title", "reference", "error", "label", "scale", "exact", "dimension", "limit", "against", "sweep", "map", "truth", "history"}
-SWEEP_KEYS = {"name", "default", "order", "quick", "history", "front"}
+SWEEP_KEYS = {"name", "default", "order", "quick", "history", "front", "error", "exact", "scale"}
 COLUMNS = ["sweep", "case", "status", "model", "error", "cells", "unknowns", "steps", "newton", "krylov", "cpu_seconds",
            "wall_seconds", "peak_rss_bytes", "ranks", "errors", "commit", "machine", "date"]  # fmt: skip
 
@@ -51,6 +51,7 @@ class Line:
         self.order, self.quick = extra.get("order"), extra.get("quick", 0)
         self.on_front = self.is_default and extra.get("front", True)
         self.history = extra.get("history", bench.history)
+        self.error, self.exact, self.scale = (extra.get(key, getattr(bench, key)) for key in ("error", "exact", "scale"))
         self.sweep = Sweep(bench.path, bench.work / self.name.replace("/", "_").replace(" ", "_"), table)
 
     def cases(self, quick):
@@ -92,16 +93,16 @@ class Bench:
     # ---- what a run gave
 
     def error_of(self, line, case, run):
-        """A key of errors in run.json; or "COLUMN of history, largest | smallest | last | variation"."""
-        column, _, how = self.error.partition(" of history, ")
+        """A key of errors in run.json; or "COLUMN of history, largest | smallest | last | variation | range"."""
+        column, _, how = line.error.partition(" of history, ")
         if not how:
-            return run.get("errors", {}).get(self.error, math.nan)
+            return run.get("errors", {}).get(line.error, math.nan)
         try:
             with open(line.sweep.folder / case.name / "history.csv", newline="") as file:
                 values = [float(row[column]) for row in csv.DictReader(file)]
         except (OSError, KeyError, ValueError):
             return math.nan
-        ways = {"largest": max, "smallest": min, "last": lambda v: v[-1],
+        ways = {"largest": max, "smallest": min, "last": lambda v: v[-1], "range": lambda v: max(v) - min(v),
                 "variation": lambda v: sum(abs(b - a) for a, b in zip(v, v[1:]))}  # fmt: skip
         if how not in ways:
             raise Problem(f"{self.path}: error: {how} is none of {', '.join(ways)}")
@@ -109,7 +110,7 @@ class Bench:
 
     def row(self, line, case):
         run = line.sweep.summary(case)
-        error = abs(self.error_of(line, case, run) - self.exact) / self.scale
+        error = abs(self.error_of(line, case, run) - line.exact) / line.scale
         values = {
             "model": run.get("model", ""), "cells": run.get("cells", ""), "unknowns": run.get("unknowns", ""),
             "steps": run.get("steps", ""), "newton": run.get("newton", {}).get("total", ""),
