@@ -1,0 +1,147 @@
+// Borders of the maps in docs/verification/charts.md: at a few points beside each, what works there and what does not,
+// with the scenes of configs as the benches run them. A border that moves must move its map.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "scene/scene.hpp"
+
+namespace titin {
+namespace {
+
+using Settings = std::vector<std::string>;
+
+struct Ran {
+  std::string failure;                            // empty when it finished
+  std::map<std::string, double> errors, last;     // against the exact solution; quantities at the end
+  std::map<std::string, double> lowest, highest;  // quantities so far, from the start on
+  double range(const std::string& name) const { return highest.at(name) - lowest.at(name); }
+};
+
+void note(Model& model, Ran& ran) {
+  for (const Quantity& q : model.quantities()) {
+    ran.last[q.name] = q.value;
+    const auto [low, first] = ran.lowest.try_emplace(q.name, q.value);
+    const auto [high, also] = ran.highest.try_emplace(q.name, q.value);
+    low->second = std::min(low->second, q.value), high->second = std::max(high->second, q.value);
+  }
+}
+
+/// A scene to its end, without files.
+Ran run(const std::string& name, const Settings& settings) {
+  const Scene scene = Scene::read(fmt::format("{}/../../configs/{}.toml", TITIN_TEST_DATA, name), settings);
+  Model& model = *scene.model;
+  Clock clock(scene.clock, model.largest_dt());
+  clock.land_on(model.kinks());
+  Ran ran;
+  note(model, ran);
+  while (!clock.done()) {
+    const Step step = model.advance(clock.dt());
+    if (!step.ok()) {
+      model.rewind();
+      if (clock.cut(step)) continue;
+      ran.failure = step.failure;
+      return ran;
+    }
+    model.accept();
+    clock.accept(step, model.largest_dt());
+    note(model, ran);
+  }
+  for (const Quantity& q : model.errors()) ran.errors[q.name] = q.value;
+  return ran;
+}
+
+Settings operator+(Settings a, const Settings& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+// ---- The swinging plate: configs/bench/poisson.toml, distortion.toml
+
+constexpr double amplitude = 5e-6, shear_modulus = 5.86206896552e6;  // [m], [Pa]
+
+/// Error of the displacement after an eighth of a period, over the displacement. Negative when the run ends before.
+double plate(const std::string& model, const Settings& settings) {
+  const Settings eighth{"time.end=4.843127325 ms", "exact_motion.swing.amplitude=0.005 mm",
+                        model == "lagrange" ? "initial.swing.rate=0.0008108378218" : "initial.rate=0.0008108378218"};
+  const Settings tight = model == "lagrange" ? Settings{} : Settings{"solver.tolerance=1e-8"};
+  const Ran ran = run(model + "/swinging_plate", eighth + tight + settings);
+  const double error = ran.failure.empty() ? ran.errors.at("displacement_L2") / amplitude : -1;
+  fmt::print("{} {}: {:.3g} {}\n", model, fmt::join(settings, " "), error, ran.failure);
+  return error;
+}
+
+Settings of_ratio(double ratio) {
+  const double bulk = shear_modulus * 2 * (1 + ratio) / (3 * (1 - 2 * ratio));
+  return {fmt::format("materials.rubber.volumetric.bulk_modulus={:.12g} Pa", bulk),
+          fmt::format("exact_motion.bulk_modulus={:.12g} Pa", bulk)};
+}
+
+TEST(Ratio, IsOfNoConcernToPairsThatDoNotLock) {
+  for (double ratio : {0.3, 0.49999}) {
+    EXPECT_LT(std::abs(plate("muscle", Settings{"mesh.cells=[8, 8]"} + of_ratio(ratio))), 2e-3);
+    EXPECT_LT(std::abs(plate("muscle", Settings{"mesh.cells=[16, 16]", "muscle.order=1"} + of_ratio(ratio))), 0.02);
+  }
+}
+
+TEST(Ratio, LocksDisplacementsAlone) {
+  const Settings first{"mesh.cells=[16, 16]", "muscle.element=displacement", "muscle.order=1"};
+  EXPECT_LT(std::abs(plate("muscle", first + of_ratio(0.45))), 0.05);
+  EXPECT_GT(plate("muscle", first + of_ratio(0.4999)), 0.2);
+}
+
+TEST(Ratio, LocksFiniteVolumesAndPatchesHelp) {
+  const Settings cells{"mesh.cells=[16, 16]"}, patches{"mesh.cells=[16, 16]", "fv.patch_pressure=true"};
+  EXPECT_GT(plate("lagrange", cells + of_ratio(0.499)), 0.2);
+  const double helped = plate("lagrange", patches + of_ratio(0.499));
+  EXPECT_GE(helped, 0);
+  EXPECT_LT(helped, 0.1);
+}
+
+Settings skewed(double skew) { return {"mesh.cells=[8, 8]", fmt::format("mesh.shape.skew={} m", skew)}; }
+
+TEST(Distortion, IsBorneUntilCellsAreInsideOutAndThenSaysSo) {
+  for (const char* model : {"muscle", "lagrange"}) {
+    EXPECT_GE(plate(model, skewed(0.6)), 0) << model;
+    EXPECT_EQ(plate(model, skewed(0.8)), -1) << model;
+  }
+}
+
+// ---- A branch that relaxes: configs/bench/relaxation.toml; the numbers are of tests/data/exact/relaxing.py
+
+constexpr double share = 1.2718;  // [N] what the branch can add
+
+double relaxing(const std::string& step, const Settings& settings, double exact) {
+  const Ran ran = run("muscle/relaxing", Settings{"time.step=" + step} + settings);
+  EXPECT_EQ(ran.failure, "");
+  if (!ran.failure.empty()) return 1e300;
+  fmt::print("step {}, {}: {:.2e}\n", step, fmt::join(settings, " "), (ran.last.at("reaction_x+_x") - exact) / share);
+  return std::abs(ran.last.at("reaction_x+_x") - exact) / share;
+}
+
+TEST(Relaxation, TakesStepsOfTenThousandTimesItsTimeAndOfItsTenThousandthPart) {
+  const Settings prony{"~materials.gel.terms.base", "~materials.gel.terms.branch.maxwell",
+                       "materials.gel.terms.branch.mu=10 kPa"};
+  const auto time = [](const char* tau) {
+    return Settings{fmt::format("materials.gel.terms.branch.prony={{ strength = [3], time = \"{}\" }}", tau)};
+  };
+  const auto viscosity = [](const char* eta) {
+    return Settings{fmt::format("materials.gel.terms.branch.maxwell.viscosity={}", eta)};
+  };
+  for (const char* step : {"1 s", "0.1 s"}) {
+    EXPECT_LT(relaxing(step, prony + time("1e-4 s"), 4.590674483), 1e-3);
+    EXPECT_LT(relaxing(step, prony + time("1e4 s"), 5.862455982), 1e-3);
+    EXPECT_LT(relaxing(step, viscosity("3 Pa s"), 4.590723797), 1e-3);
+    EXPECT_LT(relaxing(step, viscosity("300 MPa s"), 5.862449665), 1e-3);
+  }
+}
+
+TEST(Relaxation, IsMissedByMaxwellElementsInStepsOfItsOwnTime) {
+  EXPECT_GT(relaxing("1 s", {"materials.gel.terms.branch.maxwell.viscosity=30 kPa s"}, 5.289724092), 0.05);
+  EXPECT_LT(relaxing("0.1 s", {"materials.gel.terms.branch.maxwell.viscosity=30 kPa s"}, 5.289724092), 0.05);
+}
+
+}  // namespace
+}  // namespace titin
