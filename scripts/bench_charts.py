@@ -59,7 +59,7 @@ def draw_curves(bench, rows):
 def readable(axis, low, high):
     """Numbers at 1, 2, 5 where the axis has few decades, none over another."""
     few = high / low < 60
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if few else (1,)))
+    axis.set_major_locator(LogLocator(subs=(1, 1.5, 2, 3, 4, 5, 6, 8) if high / low < 5 else (1, 2, 5) if few else (1,)))
     axis.set_minor_formatter(NullFormatter())
     if few:
         axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.3g}"))
@@ -76,6 +76,8 @@ def slopes(bench, rows):
     """Fitted order, and the slopes of the first and the last two."""
     if len(rows) < 2:
         return "one run"
+    if math.isnan(fitted_order(bench, rows)):
+        return "one mesh, shorter steps"
     ends = [fitted_order(bench, pair) for pair in (rows[:2], rows[-2:])]
     return f"order {fitted_order(bench, rows):.2f}" + (f" ({ends[0]:.2f} first, {ends[1]:.2f} last)" if len(rows) > 2 else "")
 
