@@ -32,9 +32,9 @@ struct FvConfig {
   // the wave speed. Measured: Kidder's implosion on four layers reaches 0.07; with 0.2 Noh's plateau is noisier.
   double shock_jump = 0.1;
   // Crossings of a wave for which a fluid's cell that has lost its slopes in a shock faster than sound stays without
-  // them: what the mesh leaves behind a shock has no other damping. Measured: with 10 Sedov's blast bulges along
-  // diagonals of the mesh as without; with 80 it is that of first order.
-  double rest = 20;
+  // them: what the mesh leaves behind a shock has no other damping. Measured: with 20 Sedov's blast bulges along
+  // diagonals of a fine mesh; with 80 densities and pressures are no worse than with constant cells everywhere.
+  double rest = 80;
   // A run whose steps have shrunk to this part of the longest one stands still. Measured: by 1e-2 in a piston's gas
   // after four echoes of its shock, by 1e-5 and on without end where a cell is squeezed between its neighbours.
   double collapse = 1e-5;
