@@ -65,9 +65,12 @@ struct Driver {
         ->excludes("--overwrite");
     run->add_flag("-v", verbosity, "Say more; -vv: all");
     run->add_flag("-q", quiet, "Say only warnings and errors");
-    advise->add_option("--quantity", advice.quantity,
-                       "Column of history.csv, without its unit (default: the one that a run shows)");
-    advise->add_option("--tolerance", advice.tolerance, "Part of its largest value: 0.02 or 2%")
+    advise->add_option(
+        "--quantity", advice.quantity,
+        "Column of history.csv, without its unit (default: fidelity_quantity of the scene, or what a run shows)");
+    advise
+        ->add_option("--tolerance", advice.tolerance,
+                     "Part of its largest value: 0.02 or 2% (default: fidelity_tolerance of the scene, or 2%)")
         ->transform(CLI::Validator(from_percent, ""))
         ->check(CLI::Range(1e-6, 1.0));
     advise->add_option("--apply", advice.apply, "Write the scene with the proposal into this file")->type_name("FILE");

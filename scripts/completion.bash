@@ -106,6 +106,9 @@ exact_motion.shear_modulus
 exact_motion.solution
 exact_motion.swing.amplitude
 exact_motion.swing.length
+fidelity
+fidelity_quantity
+fidelity_tolerance
 fv.cascade
 fv.cfl
 fv.collapse
@@ -447,6 +450,7 @@ boundary.<NAME>.rail.along x y z
 boundary.<NAME>.wall true false
 exact.solution none kidder riemann noh sedov explosion piston hugoniot simple_wave
 exact_motion.solution none swing blake
+fidelity as_written auto
 fv.cascade limited constant
 fv.limiter mood barth_jespersen none
 fv.patch_pressure true false

@@ -46,10 +46,11 @@ FirstLine parse_first_line(std::string_view start) {
 }
 
 std::string json_of(const CheckpointHead& head) {
-  const Json json = {{"version", head.version}, {"commit", head.commit},     {"model", head.model},
-                     {"ranks", head.ranks},     {"step", head.step},         {"time", head.time},
-                     {"mesh", head.mesh},       {"settings", head.settings}, {"scene_file", head.scene_file},
-                     {"scene", head.scene}};
+  Json json = {{"version", head.version}, {"commit", head.commit},     {"model", head.model},
+               {"ranks", head.ranks},     {"step", head.step},         {"time", head.time},
+               {"mesh", head.mesh},       {"settings", head.settings}, {"scene_file", head.scene_file},
+               {"scene", head.scene}};
+  if (!head.choice.empty()) json["choice"] = head.choice;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -76,6 +77,7 @@ CheckpointHead from_json(const Json& json) {
   json.at("settings").get_to(head.settings);
   json.at("scene_file").get_to(head.scene_file);
   json.at("scene").get_to(head.scene);
+  if (json.contains("choice")) json.at("choice").get_to(head.choice);
   return head;
 }
 

@@ -22,6 +22,7 @@ struct CheckpointHead {
   std::uint64_t mesh = 0;              ///< its identity
   std::vector<std::string> settings;   ///< Config::settings
   std::string scene_file, scene;       ///< as the run was called with; Config::resolved
+  std::vector<std::string> choice;     ///< overrides that a scene with fidelity = "auto" was given; else none
 };
 
 /// The head as bytes, for a file of `file_size` bytes.

@@ -2,12 +2,14 @@
 /// from cheap runs, and the cheapest setting that keeps it within a tolerance.
 ///
 /// All runs ("probes") are of the scene on a coarse mesh, of at most `probe_unknowns` unknowns. A simplification costs
-/// what it changes there: max |q - q0| / max |q0| over time. The step's own error is by Richardson from a step of twice
-/// the length, with the order of the scheme; the mesh's from meshes of half and a quarter of the cells along an edge
-/// with the rate that these show, between 1 and k + 1, or 1 if there is no third mesh. A quarter of the tolerance is
-/// for simplifications, a quarter for the step, half for the mesh; the parts are added, not their squares.
+/// what it changes there: max |q - q0| / max |q0| over time. The step's own error is by Richardson from steps of twice
+/// and four times the length, with the order that these show, at most the scheme's; the mesh's from meshes of half and
+/// a quarter of the cells along an edge with the rate that these show, between 1 and k + 1, or 1 if there is no third
+/// mesh. A quarter of the tolerance is for simplifications, a quarter for the step, half for the mesh; the parts are
+/// added, not their squares.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,26 @@ namespace titin {
 struct AdviseOptions {
   std::string scene_file = "";
   std::vector<std::string> overrides = {};
-  std::string quantity = "";  ///< column of history.csv without its unit; "": the one that a run shows
-  double tolerance = 0.02;    ///< of the largest value of the quantity
+  std::string quantity = "";  ///< column of history.csv without its unit; "": what the scene names, or a run shows
+  double tolerance = 0;       ///< of the largest value of the quantity; 0: the scene's
   std::string apply = "";     ///< file for the scene with the proposal; "": none
 };
 
-/// Prints the estimates and the proposal. Collective. Throws InputError.
+/// A proposal.
+struct Advice {
+  std::vector<std::string> proposal;  ///< overrides
+  std::string quantity;
+  double tolerance = 0, error = 0;  ///< asked for, estimated
+  bool reached = true;              ///< is the tolerance, as far as probes can tell?
+  std::vector<std::string> report;  ///< what was told, line by line
+  std::string summary() const;      ///< in a line
+  std::string problem() const;      ///< "" when reached
+};
+
+/// Tells the estimates as it finds them, if anybody listens. Collective. Throws InputError.
+Advice find_advice(const AdviseOptions& options, const std::function<void(const std::string&)>& listen = {});
+
+/// Prints the estimates and the proposal, and writes the scene with it. Collective. Throws InputError.
 void advise(const AdviseOptions& options);
 
 }  // namespace titin

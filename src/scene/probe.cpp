@@ -1,7 +1,6 @@
 #include "scene/probe.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,25 +10,21 @@
 #include "base/parallel.hpp"
 #include "base/timers.hpp"
 #include "base/words.hpp"
+#include "scene/followed.hpp"
 #include "scene/scene.hpp"
 
 namespace titin {
 namespace {
 
-std::size_t place_of(const std::string& quantity, const std::vector<Quantity>& followed) {
-  std::vector<std::string> names;
-  for (const Quantity& q : followed) names.push_back(q.name);
-  const auto found = std::find(names.begin(), names.end(), quantity);
-  if (found != names.end()) return found - names.begin();
-  const std::string meant = nearest(quantity, names);
-  throw InputError({fmt::format("this run follows no {}; {}", in_quotes(quantity),
-                                meant.empty() ? fmt::format("it follows: {}", fmt::join(names, ", "))
-                                              : fmt::format("did you mean {}?", in_quotes(meant)))});
+std::size_t followed_place(const std::string& quantity, const std::vector<Quantity>& followed) {
+  if (const auto place = place_of(quantity, followed)) return *place;
+  throw InputError({fmt::format("this run follows no {}; {}", in_quotes(quantity), meant_instead(quantity, followed))});
 }
 
 /// One attempt; what ends the run, or "".
 std::string try_step(Model& model, Clock& clock, Probe& seen) {
   const Step step = model.advance(clock.dt());
+  seen.newton += step.newton;
   if (!step.ok()) {
     model.rewind();
     return clock.cut(step) ? "" : step.failure;
@@ -76,7 +71,7 @@ Probe probe(const std::string& file, const std::vector<std::string>& overrides, 
   Model& model = *scene.model;
   Clock clock(scene.clock, model.largest_dt());
   clock.land_on(model.kinks());
-  const std::size_t place = place_of(quantity, model.quantities());
+  const std::size_t place = followed_place(quantity, model.quantities());
   Probe seen;
   seen.cells = static_cast<long>(model.mesh().GetGlobalNE());
   seen.unknowns = model.unknowns();

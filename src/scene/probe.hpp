@@ -12,6 +12,7 @@ struct Probe {
   double cpu_seconds = 0;                   // of all ranks
   long cells = 0, unknowns = 0;
   int steps = 0, order = 1;  // of the scheme, as its steps say
+  long newton = 0;           // iterations, those of steps that failed too
   std::string failure;       ///< empty when it got to the end; else in words what kept it
   bool ok() const { return failure.empty(); }
 };

@@ -8,6 +8,7 @@
 
 #include "base/log.hpp"
 #include "base/words.hpp"
+#include "scene/followed.hpp"
 
 namespace titin {
 namespace {
@@ -68,19 +69,15 @@ void Reference::keep_wanted(Section& s) {
 }
 
 void Reference::match(const std::vector<Quantity>& followed, Section s) {
-  std::vector<std::string> names;
-  for (const Quantity& q : followed) names.push_back(q.name);
   for (std::size_t c = 0; c < table_.columns.size(); ++c) {
     const std::string& name = table_.columns[c].name;
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      const std::string meant = nearest(name, names);
+    const auto place = place_of(name, followed);
+    if (!place) {
       s.error("history", fmt::format("file {}: this run follows no {}", in_quotes(file_), in_quotes(name)),
-              meant.empty() ? fmt::format("it follows: {}", fmt::join(names, ", "))
-                            : fmt::format("did you mean {}?", in_quotes(meant)));
+              meant_instead(name, followed));
       continue;
     }
-    const std::size_t quantity = found - names.begin();
+    const std::size_t quantity = *place;
     const std::string& unit = followed[quantity].unit;
     if (const std::string problem = convert_column(table_, c, unit); !problem.empty())
       s.error("history", fmt::format("file {}: {}", in_quotes(file_), problem),

@@ -12,9 +12,9 @@ namespace titin {
 namespace {
 
 /// Tables and keys that may change between a run and its restart.
-constexpr std::array may_change = {"title =",         "output.",          "solver.",
-                                   "petsc.",          "time.end =",       "time.step =",
-                                   "time.max_cuts =", "time.tolerance =", "time.largest_step ="};
+constexpr std::array may_change = {
+    "title =",    "fidelity",    "output.",         "solver.",          "petsc.",
+    "time.end =", "time.step =", "time.max_cuts =", "time.tolerance =", "time.largest_step ="};
 constexpr std::size_t most_named = 8;
 
 std::set<std::string> that_matter(const std::vector<std::string>& settings) {

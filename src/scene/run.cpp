@@ -24,6 +24,7 @@ class Run {
   Run(Start& start, const RunOptions& options, const StopSignals& signals)
       : scene_(start.scene),
         signals_(signals),
+        start_(start),
         checkpoint_(start.checkpoint),
         folder_(options.restart.empty() ? RunFolder(folder_of(options), options.overwrite)
                                         : RunFolder::of_restart(folder_of(options))),
@@ -39,8 +40,10 @@ class Run {
     summary_.cells = static_cast<long>(scene_.model->mesh().GetGlobalNE());
     summary_.unknowns = scene_.model->unknowns();
     if (!checkpoint_.path.empty()) go_on();
-    folder_.write("resolved.toml", fmt::format("# {} as Titin {} understood it: in SI units, with defaults.\n{}",
-                                               summary_.scene, version(), scene_.resolved));
+    folder_.write(
+        "resolved.toml",
+        fmt::format("# {} as Titin {} understood it: in SI units, with defaults.\n{}{}", summary_.scene, version(),
+                    start_.choice.empty() ? "" : fmt::format("# {}.\n", start_.chosen()), scene_.resolved));
     folder_.write("run.json", summary_.json());
     if (any_of(!logging::open_file(folder_.file("run.log")))) throw OutputError(folder_.file("run.log"));
   }
@@ -50,6 +53,7 @@ class Run {
       logging::info("Titin {} ({}), {}", version(), commit(), count(ranks(), "rank"));
       logging::info("{}: {}, {}, output in {}", scene_.title.empty() ? summary_.scene : scene_.title,
                     count(summary_.cells, "cell"), count(summary_.unknowns, "unknown"), folder_.path());
+      tell_choice();
       if (!checkpoint_.path.empty())
         logging::info("going on from {}: step {}, {:.6g} s", checkpoint_.path, clock_.steps(), clock_.time());
       const Outcome outcome = loop();
@@ -67,6 +71,12 @@ class Run {
   }
 
  private:
+  void tell_choice() const {
+    for (const std::string& line : start_.advice.report) logging::info("{}", line);
+    if (!start_.advice.reached) logging::warning(start_.advice.problem());
+    if (!start_.choice.empty()) logging::info("\n{}", start_.chosen());
+  }
+
   Outcome loop() {
     const double start = wall_seconds();
     clock_.land_on(scene_.model->kinks());
@@ -163,6 +173,7 @@ class Run {
     head.settings = scene_.settings;
     head.scene_file = summary_.scene;
     head.scene = scene_.resolved;
+    head.choice = start_.choice;
     checkpoints_.write(head, [&](StateWalk& writer) { walk(writer); });
     saving_.saved(clock_.steps(), wall_seconds() - start);
     logging::detail("checkpoint of step {} in {}", clock_.steps(), duration(wall_seconds() - start));
@@ -233,6 +244,7 @@ class Run {
 
   Scene& scene_;
   const StopSignals& signals_;
+  const Start& start_;
   const FoundCheckpoint& checkpoint_;
   RunFolder folder_;
   Clock clock_;

@@ -17,6 +17,7 @@ enum class ModelName { muscle, lagrange, rod };
 /// The walk through all keys: the same for a scene and for the list of keys.
 struct SceneConfig {
   std::string title;
+  FidelityConfig fidelity;
   ModelName model = ModelName::muscle;
   MeshConfig mesh;
   ClockConfig clock;
@@ -33,6 +34,7 @@ struct SceneConfig {
     root.choose("model", model,
                 {{"muscle", ModelName::muscle}, {"lagrange", ModelName::lagrange}, {"rod", ModelName::rod}},
                 {.required = true, .doc = "the formulation"});
+    fidelity.bind(root);
     NamedMesh named;
     if (root.describing() || model != ModelName::rod) named = bind_mesh(root);
     Section time = root.section("time", "from 0 to the end by steps");
@@ -73,6 +75,7 @@ Scene scene_of(Config text) {
   text.finish();
   Scene scene;
   scene.title = config.title;
+  scene.fidelity = config.fidelity;
   scene.clock = config.clock;
   scene.output = config.output;
   scene.reference = std::move(config.reference);
@@ -87,7 +90,9 @@ Scene scene_of(Config text) {
     scene.model = std::make_unique<Rod>(std::move(mesh), std::move(config.rod));
   else
     scene.model = make_lagrange(std::move(mesh), std::move(config.lagrange));
-  scene.reference.match(scene.model->quantities(), text.root().section("reference"));
+  const std::vector<Quantity> followed = scene.model->quantities();
+  scene.reference.match(followed, text.root().section("reference"));
+  scene.fidelity.match(followed, text.root());
   text.finish();
   return scene;
 }

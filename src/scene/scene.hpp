@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/config.hpp"
+#include "scene/fidelity.hpp"
 #include "scene/output.hpp"
 #include "scene/reference.hpp"
 #include "scene/saving.hpp"
@@ -18,6 +19,7 @@ namespace titin {
 /// Everything a run needs.
 struct Scene {
   std::string title;
+  FidelityConfig fidelity;  ///< what it asks for: a scene itself is as written
   ClockConfig clock;
   OutputConfig output;
   std::unique_ptr<PetscOptionsInForce> petsc;  ///< outlives the model, whose solvers read them when they are made

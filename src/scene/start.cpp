@@ -20,11 +20,37 @@ std::string folder_of(const RunOptions& options) {
   return "results/" + (is_folder ? "scene" : name);
 }
 
+std::string Start::chosen() const {
+  std::string words;
+  for (const std::string& word : choice)
+    if (!word.starts_with("fidelity")) words += fmt::format(" '{}'", word);
+  return words.empty() ? "" : fmt::format("fidelity = \"auto\" has chosen{}", words);
+}
+
 namespace {
 
+Scene chosen_scene(const RunOptions& options, const std::vector<std::string>& choice) {
+  std::vector<std::string> overrides = options.overrides;
+  overrides.insert(overrides.end(), choice.begin(), choice.end());
+  return Scene::read(options.scene_file, overrides);
+}
+
+/// A run that goes on has chosen before: its checkpoint knows what, and the scene in it is the chosen one.
 Scene read_scene(const RunOptions& options, const FoundCheckpoint& from) {
-  if (!options.scene_file.empty()) return Scene::read(options.scene_file, options.overrides);
-  return Scene::of_text(from.head.scene, from.path, options.overrides);
+  if (options.scene_file.empty()) return Scene::of_text(from.head.scene, from.path, options.overrides);
+  return chosen_scene(options, from.head.choice);
+}
+
+bool is_to_choose(const Start& start) { return start.scene.fidelity.fidelity == Fidelity::automatic; }
+
+/// Collective. Throws InputError.
+void choose(Start& start, const RunOptions& options) {
+  Timers::Scope timer("advice");
+  logging::info("{}: fidelity is auto: probing what it needs", options.scene_file);
+  start.scene = Scene();  // probes need its memory, and its options of PETSc
+  start.advice = find_advice({.scene_file = options.scene_file, .overrides = options.overrides});
+  start.choice = as_chosen(start.advice.proposal, start.advice.quantity);
+  start.scene = chosen_scene(options, start.choice);
 }
 
 }  // namespace
@@ -47,6 +73,10 @@ Start read_start(const RunOptions& options) {
   std::erase(others, "");
   messages.insert(messages.end(), others.begin(), others.end());
   if (!messages.empty()) throw InputError(messages);
+  if (again)
+    start.choice = start.checkpoint.head.choice;
+  else if (is_to_choose(start))
+    choose(start, options);
   return start;
 }
 
@@ -68,6 +98,8 @@ void check_scene(const RunOptions& options) {
   std::string fields;
   for (const Field& field : model.fields()) fields += (fields.empty() ? "" : ", ") + field.name;
   logging::info("  fields    {}", fields);
+  if (scene.fidelity.fidelity == Fidelity::automatic)
+    logging::info("  fidelity  auto: a run chooses mesh and step first; titin advise tells what");
   logging::info("  output    {}", folder_of(options));
 }
 

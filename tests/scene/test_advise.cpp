@@ -118,6 +118,33 @@ TEST_F(Advice, KeepsInertiaWhereItMatters) {
   EXPECT_NE(text.find("inertia = \"dynamic\""), std::string::npos) << "a wave takes 0.9 ms along it\n" << text;
 }
 
+/// Four times as long, three steps, would do but for the kink at 0.3 s, which steps of 0.1 s meet.
+TEST_F(Advice, ProposesStepsThatMeetKinks) {
+  const std::string text =
+      proposed({.overrides = {"time.step=0.1 s", "muscle.inertia=quasi-static", "~time.scheme",
+                              "boundary.\"x+\".displacement.x={time = \"0, 0.3, 1 s\", value = \"0, 3, 0 mm\"}"},
+                .quantity = "reaction_x+_x",
+                .tolerance = 0.5});
+  EXPECT_NE(text.find("step = \"0.1 s\""), std::string::npos) << text;
+}
+
+/// Up front: before it is known whether there is a scene at all.
+TEST_F(Advice, LeavesAFileThatIsThere) {
+  const std::string file = folder / "mine.toml";
+  if (is_root()) std::ofstream(file) << "mine";
+  any_of(false);
+  try {
+    advise({.scene_file = folder / "nothing.toml", .apply = file});
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.messages().size(), 1u);
+    EXPECT_EQ(error.messages().front(), "\"" + file + "\" is there already; name another file with --apply");
+  }
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_EQ(text.str(), "mine");
+}
+
 TEST(SceneFacts, ReadsSettings) {
   const SceneFacts facts(
       {"mesh.box = \"0.02, 0.01 m\"", "mesh.cells = [4, 2]", "muscle.inertia = \"dynamic\"", "time.step = \"0.05 s\""});

@@ -1,0 +1,150 @@
+#include "scene/candidate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace titin {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+constexpr double shortest_step = 1.0 / 16, coarsest_mesh = 0.5, finest_mesh = 6;  // over the probe's
+constexpr double slowest_rate = 1, slowest_order = 0.5;  // in space; in time, where what is followed jumps
+/// Block solver 1.0 to 1.1 (docs/verification/solvers.md), factors 1.5.
+constexpr double cost_exponent = 1.2;
+
+Overrides joined(Overrides a, const Overrides& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::string percent(double x) { return fmt::format("{:.2g} %", 100 * x); }
+
+/// Do equal steps, this many of them, end at all times that steps of dt end at?
+bool meets(const std::vector<double>& times, double end, double steps, double dt) {
+  const auto whole = [](double x) { return std::abs(x - std::round(x)) < 1e-6; };
+  return std::all_of(times.begin(), times.end(),
+                     [&](double t) { return t > end || !whole(t / dt) || whole(t / end * steps); });
+}
+
+/// Judges one order.
+class Judge {
+ public:
+  Judge(const Trial& trial, int order) : trial_(trial) {
+    found_.order = order;
+    if (order != trial.own_order) found_.overrides = {fmt::format("{}={}", trial.order_key, order)};
+    settings_ = joined(trial.taken, found_.overrides);
+  }
+
+  /// None: no such order for these cells, or none that gets to the end.
+  std::optional<Candidate> go() {
+    fine_ = found_.overrides.empty() ? trial_.base : trial_.run(joined(settings_, trial_.mesh.overrides()));
+    if (!fine_.ok()) return std::nullopt;
+    const double at_probe = mesh_error();
+    choose_mesh(at_probe);
+    if (!trial_.clock.by_stability) choose_step();
+    estimate_cost();
+    trial_.say(fmt::format(
+        "{:<34}{:>14}{:>11.2f}x  rate {:.1f}: {} for {}",
+        trial_.order_key.empty() ? "elements" : fmt::format("mesh, with {} = {}", trial_.order_key, found_.order),
+        percent(at_probe), fine_.cpu_seconds / trial_.asked.cpu_seconds, found_.rate, found_.mesh.words(),
+        percent(found_.mesh_error)));
+    return found_;
+  }
+
+ private:
+  /// At the probe.
+  double mesh_error() {
+    const auto half = trial_.mesh.halved();
+    if (!half) return 0;
+    const Probe coarse = trial_.run(joined(settings_, half->overrides()));
+    if (!coarse.ok()) return 1;
+    const double change = difference(coarse, fine_), ratio = trial_.mesh.over(*half);
+    const auto quarter = half->halved();
+    const Probe coarsest = quarter ? trial_.run(joined(settings_, quarter->overrides())) : Probe{};
+    if (quarter && coarsest.ok() && change > 0)
+      found_.rate = std::clamp(std::log(difference(coarsest, coarse) / change) / std::log(half->over(*quarter)),
+                               slowest_rate, found_.order + 1.0);
+    double error = change / (std::pow(ratio, found_.rate) - 1);
+    if (!found_.overrides.empty())
+      error = std::max(error, difference(fine_, trial_.base));  // a lower order's own trend may deceive
+    return error;
+  }
+
+  void choose_mesh(double at_probe) {
+    const double factor =
+        std::clamp(std::pow(at_probe / trial_.for_the_mesh, 1 / found_.rate), coarsest_mesh, finest_mesh);
+    found_.mesh = trial_.mesh.scaled(factor);
+    found_.mesh_error = at_probe * std::pow(found_.mesh.over(trial_.mesh), -found_.rate);
+  }
+
+  /// By Richardson from steps of two and four times the length: they show the order, which where what is followed jumps
+  /// is less than the scheme's.
+  void choose_step() {
+    const ClockConfig& clock = trial_.clock;
+    const double dt = found_.step = clock.step;
+    if (fine_.steps < 2 || clock.tolerance > 0) return;
+    const Probe twice = with_step(2 * dt), four = fine_.steps < 4 ? Probe{} : with_step(4 * dt);
+    const double change = twice.ok() ? difference(twice, fine_) : 0;
+    double order = fine_.order;
+    if (change > 0 && fine_.steps >= 4 && four.ok())
+      order = std::clamp(std::log2(difference(four, twice) / change), slowest_order, order);
+    const double error = twice.ok() ? change / (std::exp2(order) - 1) : 1;
+    const double longest = longest_that_saves(twice, four);
+    double factor = longest;
+    if (error > 0) factor = std::pow(trial_.for_the_step / error, 1 / order);
+    factor = std::clamp(factor, shortest_step, longest);
+    found_.step = clock.end / steps_for(dt * factor);
+    found_.step_error = error * std::pow(found_.step / dt, order);
+    trial_.say(fmt::format("{:<34}{:>14}{:>12}  order {:.1f}: {:.4g} s for {}", fmt::format("step of {:.4g} s", dt),
+                           percent(error), "", order, found_.step, percent(found_.step_error)));
+  }
+
+  /// Over the probe's: longer steps that need more Newton iterations for it, or are cut, save nothing.
+  double longest_that_saves(const Probe& twice, const Probe& four) const {
+    if (!twice.ok() || (fine_.newton > 0 && twice.newton >= fine_.newton)) return 1;
+    return !four.ok() || (four.newton > 0 && four.newton >= twice.newton) ? longest_step / 2 : longest_step;
+  }
+
+  Probe with_step(double dt) {
+    return trial_.run(joined(joined(settings_, trial_.mesh.overrides()), {fmt::format("time.step={:.9g} s", dt)}));
+  }
+
+  /// Equal steps of at most this length. Those of the scene that end at a kink still do: a step over one sees a mean of
+  /// both sides, which steps that end there do not warn of.
+  double steps_for(double longest) const {
+    const ClockConfig& clock = trial_.clock;
+    const double least = std::ceil(clock.end / longest - 1e-9);
+    const double most = 2 * std::max(least, std::ceil(clock.end / clock.step - 1e-9));
+    for (double steps = least; steps <= most; ++steps)
+      if (meets(trial_.kinks, clock.end, steps, clock.step)) return steps;
+    return least;
+  }
+
+  void estimate_cost() {
+    const double finer = found_.mesh.over(trial_.mesh);
+    const double steps = trial_.clock.by_stability ? finer : trial_.clock.step / found_.step;
+    found_.cost = fine_.cpu_seconds * solve_cost(std::pow(finer, static_cast<double>(trial_.mesh.dimension()))) *
+                  std::max(steps, 1 / longest_step);
+  }
+
+  const Trial& trial_;
+  Candidate found_;
+  Overrides settings_;
+  Probe fine_;
+};
+
+}  // namespace
+
+std::vector<Candidate> candidates(const Trial& trial) {
+  std::vector<Candidate> found;
+  for (int order = trial.own_order; order > 0 && order >= trial.own_order - 1; --order)
+    if (const auto candidate = Judge(trial, order).go()) found.push_back(*candidate);
+  return found;
+}
+
+double solve_cost(double unknowns) { return std::pow(unknowns, cost_exponent); }
+
+}  // namespace titin
