@@ -18,7 +18,7 @@ from batch import ROOT, Problem
 
 CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME", pathlib.Path.home() / ".cache")) / "titin" / "compare"
 # Programs of Google Benchmark, and what of them is run: sizes that take seconds.
-MICRO = {"material_speed": "^P", "tangent_speed": "/6$"}
+MICRO = {"material_speed": "^P", "tangent_speed": "/6$", "flow_speed": "/(64|11)$"}
 
 
 @dataclass
@@ -145,7 +145,7 @@ def compare_runs(runs, pair, repetitions):
 
 
 def micro_times(revision, program):
-    command = [revision.program(program), f"--benchmark_filter={MICRO[program]}", "--benchmark_min_time=0.1", "--benchmark_format=json"]
+    command = [revision.program(program), f"--benchmark_filter={MICRO[program]}", "--benchmark_min_time=0.02", "--benchmark_format=json"]
     found = subprocess.run(command, capture_output=True, text=True, env=environment.mpi())
     if found.returncode:
         raise Problem(f"{command[0]}: {found.stderr.strip()}")
