@@ -143,5 +143,37 @@ TEST(Relaxation, IsMissedByMaxwellElementsInStepsOfItsOwnTime) {
   EXPECT_LT(relaxing("0.1 s", {"materials.gel.terms.branch.maxwell.viscosity=30 kPa s"}, 5.289724092), 0.05);
 }
 
+// ---- The tumbling bar: configs/bench/tumbling.toml
+
+/// Change of the energy in some turns, over the energy; negative when the run ends before.
+double tumbled(const std::string& scheme, const std::string& step) {
+  const Ran ran = run("muscle/tumbling_bar", {"time.scheme=" + scheme, "time.step=" + step, "time.end=2 s"});
+  const double change = ran.failure.empty() ? ran.range("energy_balance_error") / 128.5333333 : -1;
+  fmt::print("{}, {}: {:.2e} {}\n", scheme, step, change, ran.failure);
+  return change;
+}
+
+TEST(Tumbling, KeepsItsEnergyInTheConservingSchemeWithElevenStepsATurn) {
+  for (const char* step : {"50 ms", "100 ms"}) {
+    const double change = tumbled("energy_momentum", step);
+    EXPECT_GE(change, 0);
+    EXPECT_LT(change, 1e-8);
+  }
+}
+
+TEST(Tumbling, LosesItsEnergyInBackwardEuler) { EXPECT_GT(tumbled("backward_euler", "50 ms"), 0.2); }
+
+// ---- Wall heating: configs/bench/wall_heating.toml
+
+TEST(WallHeating, MakesGasThinAtTheOriginOfNohsImplosion) {
+  const Ran ran =
+      run("lagrange/noh", {"mesh.cells=[20, 20]", "averages.origin={ lower = \"0, 0 m\", upper = \"0.1, 0.1 m\" }"});
+  ASSERT_EQ(ran.failure, "");
+  const double error = ran.last.at("mean_density_origin") / 16 - 1;
+  fmt::print("density at the origin off by {:.3f}\n", error);
+  EXPECT_LT(error, -0.05);
+  EXPECT_GT(error, -0.6);
+}
+
 }  // namespace
 }  // namespace titin
