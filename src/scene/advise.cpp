@@ -27,8 +27,8 @@ using Say = std::function<void(const std::string&)>;
 
 constexpr long probe_unknowns = 3000;
 constexpr double for_simplifications = 0.25, for_the_step = 0.25, for_the_mesh = 0.5;  // of the tolerance
-/// Of the largest quantity of the same unit: what Newton's tolerance leaves of a zero.
-constexpr double vanishing = 1e-6;
+/// Of the largest quantity of the same unit: what Newton's tolerance leaves of a zero, and what round-off does.
+constexpr double vanishing = 1e-6, vanishing_explicit = 1e-12;
 
 Overrides joined(Overrides a, const Overrides& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -108,7 +108,7 @@ class Adviser {
     if (!base_.ok())
       throw InputError({fmt::format("{}: the probe on {} does not get to the end: {}", options_.scene_file,
                                     mesh_.words(), base_.failure)});
-    if (base_.largest <= vanishing * base_.largest_of_unit)
+    if (base_.largest <= (explicit_ ? vanishing_explicit : vanishing) * base_.largest_of_unit)
       throw InputError({fmt::format("{} stays zero here, as far as its own kind goes; name another quantity",
                                     in_quotes(advice_.quantity))});
   }
