@@ -103,6 +103,32 @@ TEST(Ratio, LocksFiniteVolumesAlongOneDiagonal) {
   }
 }
 
+// ---- Pressures of a plate that has none, and what a skewed mesh leaves: configs/bench/chequerboard.toml, imprint.toml
+
+/// Over the largest shear stress, after a quarter of a period.
+double pressure(const Settings& settings) {
+  constexpr double shear_stress = 184.2;  // [Pa m], in L2
+  const Settings quarter{"time.end=9.68625465 ms", "exact_motion.swing.amplitude=0.005 mm",
+                         "initial.swing.rate=0.0008108378218", "mesh.cells=[16, 16]"};
+  return run("lagrange/swinging_plate", quarter + settings).errors.at("pressure_L2") / shear_stress;
+}
+
+TEST(Chequerboard, IsThereAlongOneDiagonalAndGoneWithPatches) {
+  EXPECT_GT(pressure({"mesh.cuts=same"}), 0.25);
+  EXPECT_LT(pressure({}), 0.016);
+  EXPECT_LT(pressure({"fv.patch_pressure=true"}), 1e-5);
+}
+
+TEST(Imprint, IsLessenedByRestAndByLimitedSlopes) {
+  constexpr double momentum = 0.02;  // of the shocked gas at one density, in L1 [m^3/s/m]
+  const auto noise = [](const std::string& setting) {
+    return run("lagrange/saltzman", {"mesh.cells=[50, 5]", setting}).errors.at("velocity_L1") / momentum;
+  };
+  EXPECT_GT(noise("fv.rest=0"), 0.09);
+  EXPECT_LT(noise("fv.rest=80"), 0.075);
+  EXPECT_LT(noise("fv.limiter=barth_jespersen"), 0.04);
+}
+
 Settings skewed(double skew) { return {"mesh.cells=[8, 8]", fmt::format("mesh.shape.skew={} m", skew)}; }
 
 TEST(Distortion, IsBorneUntilCellsAreInsideOutAndThenSaysSo) {
