@@ -129,6 +129,17 @@ TEST(Imprint, IsLessenedByRestAndByLimitedSlopes) {
   EXPECT_LT(noise("fv.limiter=barth_jespersen"), 0.04);
 }
 
+// ---- Angular momentum of the L-shaped block, 15 s after the last force: configs/bench/angular_momentum.toml
+
+TEST(AngularMomentum, IsKeptBySlopesAndLostWithout) {
+  constexpr double kept = -142766.1;  // [kg m^2/s] about z, by finite elements
+  const auto part = [](const Settings& settings) {
+    return run("lagrange/l_block", Settings{"mesh.refine=0"} + settings).last.at("angular_momentum_z") / kept;
+  };
+  EXPECT_NEAR(part({}), 1, 0.08);
+  EXPECT_LT(std::abs(part({"fv.order=1"})), 0.1);
+}
+
 Settings skewed(double skew) { return {"mesh.cells=[8, 8]", fmt::format("mesh.shape.skew={} m", skew)}; }
 
 TEST(Distortion, IsBorneUntilCellsAreInsideOutAndThenSaysSo) {
