@@ -9,86 +9,12 @@
 namespace titin {
 namespace {
 
-/// What is left of a unit direction beside others: less is round-off, and the direction is given already.
-constexpr double independent = 1e-6;
 /// Faces lie in one plane when the size of the sum of their area vectors is this part of the sum of their areas.
 constexpr double plane = 1 - 1e-9;
 /// Less than this: faces of a corner (of more than 74 degrees, where two meet), and not of a curved wall.
 constexpr double corner = 0.8;
 
-template <int D>
-std::array<Vector<D>, D> complement(const Directions<D>& given) {
-  std::array<Vector<D>, D> rest{};
-  if constexpr (D == 2) {
-    rest[0] = {-given.normal[0][1], given.normal[0][0]};
-  } else {
-    const Vector<3>& n = given.normal[0];
-    if (given.count == 2) {
-      rest[0] = cross(n, given.normal[1]);
-    } else {
-      const int smallest = static_cast<int>(
-          std::min_element(n.begin(), n.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
-          n.begin());
-      Vector<3> axis{};
-      axis[smallest] = 1;
-      rest[0] = cross(n, axis);
-      const double size = norm(rest[0]);
-      for (double& component : rest[0]) component /= size;
-      rest[1] = cross(n, rest[0]);
-    }
-  }
-  return rest;
-}
-
-template <int D>
-Vector<D> solve_free(const Symmetric<D>& M, const Vector<D>& b) {
-  Symmetric<D> C;
-  const double determinant = cofactors<D>(M, C);
-  Vector<D> v = product<D>(C, b);
-  for (double& component : v) component /= determinant;
-  return v;
-}
-
 }  // namespace
-
-template <int D>
-void Directions<D>::add(const Vector<D>& n, double w, int owner) {
-  if (count == D) return;
-  Vector<D> rest = n;
-  for (int k = 0; k < count; ++k) {
-    const double along = dot(rest, normal[k]);
-    accumulate(rest, -along, normal[k]);
-    w -= along * velocity[k];
-  }
-  const double size = norm(rest);
-  if (size < independent) return;
-  for (double& component : rest) component /= size;
-  normal[count] = rest;
-  velocity[count] = w / size;
-  condition[count] = owner;
-  ++count;
-}
-
-template <int D>
-Vector<D> Directions<D>::solve(const Symmetric<D>& M, const Vector<D>& b) const {
-  if (count == 0) return solve_free<D>(M, b);
-  Vector<D> v{};
-  for (int k = 0; k < count; ++k) accumulate(v, velocity[k], normal[k]);
-  if (count == D) return v;
-  const auto T = complement(*this);
-  const Vector<D> rest = difference(b, product<D>(M, v));
-  const Vector<D> MT = product<D>(M, T[0]);
-  if (D - count == 1) {
-    accumulate(v, dot(T[0], rest) / dot(T[0], MT), T[0]);
-    return v;
-  }
-  const Vector<D> MU = product<D>(M, T[1]);
-  const double a = dot(T[0], MT), c = dot(T[0], MU), d = dot(T[1], MU), r = dot(T[0], rest), s = dot(T[1], rest);
-  const double determinant = a * d - c * c;
-  accumulate(v, (d * r - c * s) / determinant, T[0]);
-  accumulate(v, (a * s - c * r) / determinant, T[1]);
-  return v;
-}
 
 template <int D>
 Boundary<D>::Boundary(const SimplexMesh<D>& mesh, NodeExchange& exchange, std::vector<BoundaryCondition<D>> conditions)
@@ -254,7 +180,7 @@ Vector<D> Boundary<D>::velocity(int place, const Symmetric<D>& M, const Vector<D
   NodeRules& rules = rules_[place];
   rules.share_count = 0;
   rules.reaction = {};
-  if (!rules.constrained()) return solve_free<D>(M, b);
+  if (!rules.constrained()) return Directions<D>{}.solve(M, b);
   Directions<D> given = directions(rules, x);
   const Vector<D> v = meet_obstacles(rules, given, M, b, x);
   if (!exchange_.owns(rules.node)) return v;
@@ -301,8 +227,6 @@ Vector<3> Boundary<D>::moment(int condition, const Vector<3>& point, const std::
   return sum;
 }
 
-template struct Directions<2>;
-template struct Directions<3>;
 template class Boundary<2>;
 template class Boundary<3>;
 

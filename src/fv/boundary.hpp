@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/table.hpp"
+#include "fv/directions.hpp"
 #include "fv/node_exchange.hpp"
 
 namespace titin {
@@ -39,19 +40,6 @@ struct BoundaryCondition {
   };
   bool has_obstacle = false;
   Obstacle obstacle;
-};
-
-/// Orthonormal directions along which a node's velocity is given, each owed to a condition.
-template <int D>
-struct Directions {
-  int count = 0;
-  std::array<Vector<D>, D> normal;
-  std::array<double, D> velocity;
-  std::array<int, D> condition;
-  /// Adds v . n = w unless n is in the span already.
-  void add(const Vector<D>& n, double w, int owner);
-  /// The velocity that solves M v = b in the directions that are left.
-  Vector<D> solve(const Symmetric<D>& M, const Vector<D>& b) const;
 };
 
 /// Planes of symmetry at a node, by their unit normals.

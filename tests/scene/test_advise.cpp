@@ -11,35 +11,15 @@
 #include "scene/advise.hpp"
 #include "scene/probe.hpp"
 #include "scene/scene_facts.hpp"
+#include "uniform_block.hpp"
 
 namespace titin {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Uniform: one cell is exact. Held between z- and z+: plane. Slow: without inertia.
-const char* const uniform_block = R"(
-model = "muscle"
-[mesh]
-box = "20, 10, 10 mm"
-cells = [4, 2, 2]
-[time]
-end = "1 s"
-step = "50 ms"
-scheme = "newmark"
-[materials.gel]
-density = "1000 kg/m^3"
-volumetric = {law = "simo", bulk_modulus = "200 kPa"}
-terms.matrix = {law = "neo_hookean", mu = "100 kPa"}
-[boundary."x-"]
-displacement.x = "0 mm"
-[boundary."x+"]
-displacement.x = {time = "0, 1 s", value = "0, 3 mm"}
-[boundary."y-"]
-displacement.y = "0 mm"
-[boundary."z-"]
-displacement.z = "0 mm"
-[boundary."z+"]
+/// Held between z- and z+ as well: plane.
+const std::string plane_block = std::string(uniform_block) + R"([boundary."z+"]
 displacement.z = "0 mm"
 )";
 
@@ -54,7 +34,7 @@ class Advice : public testing::Test {
     if (is_root()) {
       fs::remove_all(folder);
       fs::create_directories(folder);
-      std::ofstream(scene) << uniform_block;
+      std::ofstream(scene) << plane_block;
     }
     any_of(false);
   }

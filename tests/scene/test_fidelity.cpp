@@ -10,38 +10,19 @@
 #include "base/parallel.hpp"
 #include "scene/probe.hpp"
 #include "scene/run.hpp"
+#include "uniform_block.hpp"
 
 namespace titin {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Uniform and slow: cells, order and inertia are more than it needs. Cells along x for two ranks to share.
-const char* const block = R"(
-model = "muscle"
-fidelity = "auto"
+/// Cells, order and inertia are more than it needs. Cells along x for two ranks to share.
+const std::string block = R"(fidelity = "auto"
 fidelity_quantity = "reaction_x+_x"
 fidelity_tolerance = 0.05
-[mesh]
-box = "20, 10, 10 mm"
-cells = [4, 2, 2]
-[time]
-end = "1 s"
-step = "50 ms"
-scheme = "newmark"
-[materials.gel]
-density = "1000 kg/m^3"
-volumetric = {law = "simo", bulk_modulus = "200 kPa"}
-terms.matrix = {law = "neo_hookean", mu = "100 kPa"}
-[boundary."x-"]
-displacement.x = "0 mm"
-[boundary."x+"]
-displacement.x = {time = "0, 1 s", value = "0, 3 mm"}
-[boundary."y-"]
-displacement.y = "0 mm"
-[boundary."z-"]
-displacement.z = "0 mm"
-[output]
+)" + std::string(uniform_block) +
+                          R"([output]
 fields = false
 checkpoint_every = 1
 checkpoint_keep = 9
