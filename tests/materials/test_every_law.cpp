@@ -1,6 +1,7 @@
 /// What every law must keep beside its derivatives: the symmetry of its fibres, waves with real speeds, and a memory
 /// that is all in its history.
 #include "every_law.hpp"
+#include "materials/compressible.hpp"
 #include "materials/ellipticity.hpp"
 #include "memory_for_tests.hpp"
 
@@ -51,6 +52,28 @@ TEST(EveryLaw, WithFibresKeepsTheirSymmetry) {
       if (size_of(P) > 0 && !all_round)
         EXPECT_GT(error(turn(along_second ? first_family : second, 0.7)), 1e-6 * size_of(P));
     });
+}
+
+/// One pass over the points gives what stress, potential and volumetric law give apart; more points than a block holds.
+TEST(EveryLaw, GivesCauchyStressAndEnergyInOnePass) {
+  constexpr int n = 37;
+  for_each_case([](const Case& c) {
+    const MaterialPointer m = c.material();
+    std::array<Mat3, n> F, P;
+    for (int p = 0; p < n; ++p) F[p] = stretched_along(identity, first_family, 0.9 + 0.01 * p), F[p][1] += 0.1;
+    const PointInput in{.n = n, .F = F.data()};
+    std::array<Sym3, n> T;
+    std::array<double, n> W, whole;
+    m->cauchy_stress(in, T.data(), W.data());
+    whole_stress(*m, in, P.data(), nullptr);
+    whole_energy(*m, in, whole.data());
+    for (int p = 0; p < n; ++p) {
+      const Sym3 expected = cauchy(P[p], F[p]);
+      const double size = std::sqrt(contract(expected, expected));
+      for (int k = 0; k < 6; ++k) EXPECT_NEAR(T[p][k], expected[k], round_off * size) << p;
+      EXPECT_NEAR(W[p], whole[p], round_off * std::abs(whole[p])) << p;
+    }
+  });
 }
 
 // Of the search for the smallest value, times the bulk modulus of material_of.
