@@ -42,9 +42,12 @@ void bind_formulation(Section s, MuscleConfig& c, const NamedMesh& mesh) {
                         c.order),
             fmt::format("take at least {}", c.order + 1));
   s.choose("fibre_rate", c.fibre_rate,
-           {{"stretch_difference", FibreRate::stretch_difference}, {"velocity_gradient", FibreRate::velocity_gradient}},
+           {{"stretch_difference", FibreRate::stretch_difference},
+            {"velocity_gradient", FibreRate::velocity_gradient},
+            {"velocity_gradient_symmetric", FibreRate::velocity_gradient_symmetric}},
            {.doc = "rate of the fibre's stretch in a step: from its two ends (symmetric tangent), or from the velocity "
-                   "gradient"});
+                   "gradient, with the exact tangent or the symmetric one of the Flexodeal codes, which takes more "
+                   "iterations"});
   s.read(
       "error_estimate", c.error_estimate,
       {.doc = "estimate after each step how far the stress is off because cells are not smaller: field stress_error, "

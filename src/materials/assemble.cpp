@@ -171,7 +171,7 @@ void write(const Kinematics<T>& k, const Shapes<T>& A, std::array<T, 81>& out) {
 
 template <class T>
 void chain_rate(const Kinematics<T>& k, InvariantSet used, EnergyDerivatives<T>& W) {
-  if (k.options.rate != FibreRate::stretch_difference) return;
+  if (k.options.rate == FibreRate::none || has_own_gradient(k.options.rate)) return;
   const bool full = k.options.measure == FibreMeasure::full;
   for (const FamilyInvariants& family : families) {
     if (!used.has(family.rate)) continue;
@@ -200,7 +200,7 @@ Tensor3<T> assemble_tangent(const Kinematics<T>& k, InvariantSet used, const Ene
   shapes.add_dyad(k.Ft, shapes.Y);
   shapes.add_dyad(shapes.Y, k.Ft);
   if (used.has(Invariant::I2)) shapes.add_dyad(shapes.Z, k.F);
-  const int columns = k.options.rate == FibreRate::velocity_gradient ? invariant_count : force_count;
+  const int columns = has_own_gradient(k.options.rate) ? invariant_count : force_count;
   Tensor3<T> P{};
   for (int a = 0; a < force_count; ++a) {
     if (!used.has(Invariant(a))) continue;

@@ -101,7 +101,7 @@ void deform(const Tensor3<T>& F, const Tensor3<T>& F_old, const FibrePair<T>& fi
   for (int family = 0; family < 2; ++family) {
     if (!used.has(families[family].rate)) continue;
     if (options.rate == FibreRate::stretch_difference) set_stretch_difference(k, F_old, family);
-    if (options.rate == FibreRate::velocity_gradient) set_velocity_gradient(k, F_old, family);
+    if (from_velocity_gradient(options.rate)) set_velocity_gradient(k, F_old, family);
   }
 }
 
@@ -161,7 +161,7 @@ PerInvariant<Tensor3<T>> gradients(const Kinematics<T>& k, InvariantSet used) {
     if (!full) add<T>(G5, -4.0 / 3 * y4 * dot(w, w), k.Ft);
   }
   for (int family = 0; family < 2; ++family)
-    if (used.has(families[family].rate) && k.options.rate == FibreRate::velocity_gradient)
+    if (used.has(families[family].rate) && has_own_gradient(k.options.rate))
       G[index(families[family].rate)] = k.G_rate[family];
   return G;
 }

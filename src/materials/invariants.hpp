@@ -28,7 +28,15 @@ enum class FibreRate {
   none,                ///< quasi-static: rate 0
   stretch_difference,  ///< (lambda_n+1 - lambda_n) / dt: symmetric tangent
   velocity_gradient,   ///< a . dev(sym((F - F_n) F^-1 / dt)) a / lambda, a = Fbar a0: unsymmetric tangent
+  /// The same rate, but its tangent is that of the stretch difference, as in the Flexodeal codes: symmetric, and off
+  /// by what does not grow as 1 / dt.
+  velocity_gradient_symmetric,
 };
+/// Does the rate depend on more than the fibre's stretch, and the tangent know it?
+constexpr bool has_own_gradient(FibreRate rate) { return rate == FibreRate::velocity_gradient; }
+constexpr bool from_velocity_gradient(FibreRate rate) {
+  return rate == FibreRate::velocity_gradient || rate == FibreRate::velocity_gradient_symmetric;
+}
 
 /// Which fibre invariants: of Cbar (stress is a deviator) or of C.
 enum class FibreMeasure { isochoric, full };
@@ -134,8 +142,8 @@ struct EnergyDerivatives {
   PerPair<T> second;
 };
 
-/// Where a rate is a function of I4 (stretch difference), its derivatives become derivatives by I4: W_44 += W_4r
-/// dr/dI4; so for I6.
+/// Where a rate is a function of I4 (stretch difference), or its tangent takes it for one, its derivatives become
+/// derivatives by I4: W_44 += W_4r dr/dI4; so for I6.
 template <class T>
 void chain_rate(const Kinematics<T>& k, InvariantSet used, EnergyDerivatives<T>& W);
 

@@ -183,7 +183,7 @@ std::vector<double> SumMaterial::kinks() const {
 bool SumMaterial::symmetric_tangent(FibreRate rate) const {
   const auto symmetric = [](const WeightedTerm& t) { return t.term->symmetric(); };
   if (!std::all_of(parts_.terms.begin(), parts_.terms.end(), symmetric)) return false;
-  return rate != FibreRate::velocity_gradient || !used_.has_rate();
+  return !has_own_gradient(rate) || !used_.has_rate();
 }
 
 void SumMaterial::evaluate(const PointInput& in, std::span<const WeightedTerm> terms, Mat3* P, Mat9* A) const {

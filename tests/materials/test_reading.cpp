@@ -38,6 +38,7 @@ TEST(ReadMaterial, HoldsWhatTheSceneSays) {
   EXPECT_EQ(m->volumetric(1).d2U, 10e6);
   EXPECT_TRUE(m->symmetric_tangent(FibreRate::stretch_difference));
   EXPECT_FALSE(m->symmetric_tangent(FibreRate::velocity_gradient));
+  EXPECT_TRUE(m->symmetric_tangent(FibreRate::velocity_gradient_symmetric));
   double stretch, rate, activation;
   Point p{.time = 0.2};
   m->fibre_state(p.input(), &stretch, &rate, &activation);
