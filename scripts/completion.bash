@@ -480,7 +480,7 @@ model muscle lagrange rod
 muscle.element three_field displacement
 muscle.ellipticity true false
 muscle.error_estimate true false
-muscle.fibre_rate stretch_difference velocity_gradient
+muscle.fibre_rate stretch_difference velocity_gradient velocity_gradient_symmetric
 muscle.inertia dynamic quasi-static
 output.fields true false
 output.format vtu vtkhdf vtkhdf_transient
