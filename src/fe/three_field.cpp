@@ -1,49 +1,28 @@
 #include "fe/three_field.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
+
+#include "math/lanes.hpp"
 
 namespace titin {
 
 namespace {
 
-typedef double Pack
-    __attribute__((vector_size(64), aligned(8)));  // GCC and Clang split it where registers are narrower
-constexpr int pack = 8;
-constexpr int rows_at_once = 6;  // 6 rows x 4 packs of accumulators fit 32 registers for Q2
-
-/// C[a][b] = sum_s G[s][a] H[s][b] for a < nodes, b < padded; PACKS = padded / 8.
-template <int PACKS>
-void outer_product_sum(int nodes, int terms, const double* G, const double* H, double* C) {
-  constexpr int padded = PACKS * pack;
-  for (int first = 0; first < nodes; first += rows_at_once) {
-    const int rows = std::min(rows_at_once, padded - first);
-    Pack sum[rows_at_once][PACKS] = {};
-    for (int s = 0; s < terms; ++s) {
-      const Pack* h = reinterpret_cast<const Pack*>(H + s * padded);
-      const double* g = G + s * padded + first;
-      for (int a = 0; a < rows_at_once; ++a) {
-        const double factor = a < rows ? g[a] : 0.0;
-        for (int b = 0; b < PACKS; ++b) sum[a][b] += factor * h[b];
-      }
-    }
-    for (int a = 0; a < std::min(rows, nodes - first); ++a)
-      std::copy_n(reinterpret_cast<const double*>(sum[a]), padded, C + (first + a) * padded);
-  }
-}
-
-using OuterProductSum = void (*)(int nodes, int terms, const double* G, const double* H, double* C);
-
-template <int... packs>
-constexpr std::array<OuterProductSum, sizeof...(packs)> kernels_of(std::integer_sequence<int, packs...>) {
-  return {&outer_product_sum<packs + 1>...};
-}
-constexpr int most_packs = 8;  // Q3 hexahedra: 64 nodes
-constexpr auto kernels = kernels_of(std::make_integer_sequence<int, most_packs>{});
-
+/// C[a][b] = sum_s G[s][a] H[s][b] for a < nodes, b < padded, by blocks whose sums stay in registers.
 void outer_product_sum(int nodes, int padded, int terms, const double* G, const double* H, double* C) {
-  kernels[padded / pack - 1](nodes, terms, G, H, C);
+  constexpr int rows = 4, columns = 8, packs = columns / lane_count;  // both divide `padded`
+  for (int first = 0; first < nodes; first += rows)
+    for (int column = 0; column < padded; column += columns) {
+      Lanes sum[rows][packs] = {};
+      for (int s = 0; s < terms; ++s)
+        for (int b = 0; b < packs; ++b) {
+          const Lanes h(H + s * padded + column + b * lane_count, std::experimental::element_aligned);
+          for (int a = 0; a < rows; ++a) sum[a][b] += G[s * padded + first + a] * h;
+        }
+      for (int a = 0; a < std::min(rows, nodes - first); ++a)
+        for (int b = 0; b < packs; ++b)
+          sum[a][b].copy_to(C + (first + a) * padded + column + b * lane_count, std::experimental::element_aligned);
+    }
 }
 
 /// In plane strain F_33 = 1. Three sums side by side: one alone waits for each of its additions.
