@@ -18,7 +18,7 @@ from batch import ROOT, Problem
 
 CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME", pathlib.Path.home() / ".cache")) / "titin" / "compare"
 # Programs of Google Benchmark, and what of them is run: sizes that take seconds.
-MICRO = {"material_speed": "^P", "tangent_speed": "/6$", "flow_speed": "/(64|11)$"}
+MICRO = {"material_speed": "^P", "tangent_speed": "/6$|^cell_.*/three_field/", "flow_speed": "/(64|11)$"}
 
 
 @dataclass
