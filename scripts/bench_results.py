@@ -17,7 +17,7 @@ from sweep_cases import Sweep
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TRUTHS = ROOT / "docs" / "verification" / "bench" / "reference"
 CHART_KEYS = {"title", "reference", "error", "label", "scale", "exact", "dimension", "limit", "against", "sweep", "map", "truth", "history"}
-SWEEP_KEYS = {"name", "default", "order", "quick", "history", "front", "error", "exact", "scale"}
+SWEEP_KEYS = {"name", "default", "order", "quick", "history", "front", "as_default", "error", "exact", "scale"}
 COLUMNS = ["sweep", "case", "status", "model", "error", "cells", "unknowns", "steps", "newton", "krylov", "cpu_seconds",
            "wall_seconds", "peak_rss_bytes", "ranks", "errors", "commit", "machine", "date"]  # fmt: skip
 
@@ -49,7 +49,7 @@ class Line:
         self.name = extra["name"]
         self.is_default = extra.get("default", False)
         self.order, self.quick = extra.get("order"), extra.get("quick", 0)
-        self.on_front = self.is_default and extra.get("front", True)
+        self.on_front, self.as_default = extra.get("front", self.is_default), extra.get("as_default")
         self.history = extra.get("history", bench.history)
         self.error, self.exact, self.scale = (extra.get(key, getattr(bench, key)) for key in ("error", "exact", "scale"))
         self.sweep = Sweep(bench.path, bench.work / self.name.replace("/", "_").replace(" ", "_"), table)
