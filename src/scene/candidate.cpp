@@ -11,6 +11,7 @@ namespace {
 using Overrides = std::vector<std::string>;
 
 constexpr double shortest_step = 1.0 / 16, coarsest_mesh = 0.5, finest_mesh = 6;  // over the probe's
+constexpr double same_step = 1e-6;                                                // round-off in a length
 constexpr double slowest_rate = 1, slowest_order = 0.5;  // in space; in time, where what is followed jumps
 /// Block solver 1.0 to 1.1 (docs/verification/solvers.md), factors 1.5.
 constexpr double cost_exponent = 1.2;
@@ -32,45 +33,54 @@ bool meets(const std::vector<double>& times, double end, double steps, double dt
 /// Judges one order.
 class Judge {
  public:
-  Judge(const Trial& trial, int order) : trial_(trial) {
+  Judge(const Trial& trial, int order) : trial_(trial), step_(trial.clock.step) {
     found_.order = order;
     if (order != trial.own_order) found_.overrides = {fmt::format("{}={}", trial.order_key, order)};
     settings_ = joined(trial.taken, found_.overrides);
   }
 
-  /// None: no such order for these cells, or none that gets to the end.
+  /// None: no such order for these cells, or none that gets to the end. The step comes first, and the mesh is measured
+  /// with it: waves that a long one damps are none that cells have to carry.
   std::optional<Candidate> go() {
-    fine_ = found_.overrides.empty() ? trial_.base : trial_.run(joined(settings_, trial_.mesh.overrides()));
+    fine_ = found_.overrides.empty() ? trial_.base : with_step(step_);
+    if (!fine_.ok()) return std::nullopt;
+    const double cost = fine_.cpu_seconds / trial_.asked.cpu_seconds;
+    if (!trial_.clock.by_stability) choose_step();
     if (!fine_.ok()) return std::nullopt;
     const double at_probe = mesh_error();
     choose_mesh(at_probe);
-    if (!trial_.clock.by_stability) choose_step();
     estimate_cost();
     trial_.say(fmt::format(
         "{:<34}{:>14}{:>11.2f}x  rate {:.1f}: {} for {}",
         trial_.order_key.empty() ? "elements" : fmt::format("mesh, with {} = {}", trial_.order_key, found_.order),
-        percent(at_probe), fine_.cpu_seconds / trial_.asked.cpu_seconds, found_.rate, found_.mesh.words(),
-        percent(found_.mesh_error)));
+        percent(at_probe), cost, found_.rate, found_.mesh.words(), percent(found_.mesh_error)));
     return found_;
   }
 
  private:
+  Probe run(const Overrides& settings, const MeshChoice& mesh, double step) const {
+    Overrides all = joined(settings, mesh.overrides());
+    if (step != trial_.clock.step) all.push_back(fmt::format("time.step={:.9g} s", step));
+    return trial_.run(all);
+  }
+  Probe with_step(double step) const { return run(settings_, trial_.mesh, step); }
+
   /// At the probe.
   double mesh_error() {
     const auto half = trial_.mesh.halved();
     if (!half) return 0;
-    const Probe coarse = trial_.run(joined(settings_, half->overrides()));
+    const Probe coarse = run(settings_, *half, step_);
     if (!coarse.ok()) return 1;
     const double change = difference(coarse, fine_), ratio = trial_.mesh.over(*half);
     const auto quarter = half->halved();
-    const Probe coarsest = quarter ? trial_.run(joined(settings_, quarter->overrides())) : Probe{};
+    const Probe coarsest = quarter ? run(settings_, *quarter, step_) : Probe{};
     if (quarter && coarsest.ok() && change > 0)
       found_.rate = std::clamp(std::log(difference(coarsest, coarse) / change) / std::log(half->over(*quarter)),
                                slowest_rate, found_.order + 1.0);
     double error = change / (std::pow(ratio, found_.rate) - 1);
-    if (!found_.overrides.empty())
-      error = std::max(error, difference(fine_, trial_.base));  // a lower order's own trend may deceive
-    return error;
+    if (found_.overrides.empty()) return error;
+    const Probe own = step_ == trial_.clock.step ? trial_.base : run(trial_.taken, trial_.mesh, step_);
+    return own.ok() ? std::max(error, difference(fine_, own)) : 1;  // a lower order's own trend may deceive
   }
 
   void choose_mesh(double at_probe) {
@@ -80,19 +90,27 @@ class Judge {
     found_.mesh_error = at_probe * std::pow(found_.mesh.over(trial_.mesh), -found_.rate);
   }
 
+  struct StepError {
+    double order, error;
+  };
+
   /// By Richardson from steps of two and four times the length: they show the order, which where what is followed jumps
   /// is less than the scheme's.
+  StepError step_error(const Probe& twice, const Probe& four) const {
+    const double change = twice.ok() ? difference(twice, fine_) : 0;
+    double order = fine_.order;
+    if (change > 0 && fine_.steps >= 4 && four.ok())
+      order = std::clamp(std::log2(difference(four, twice) / change), slowest_order, order);
+    return {order, twice.ok() ? change / (std::exp2(order) - 1) : 1};
+  }
+
   void choose_step() {
     const ClockConfig& clock = trial_.clock;
     const double dt = found_.step = clock.step;
     if (fine_.steps < 2 || clock.tolerance > 0) return;
     const Probe twice = with_step(2 * dt), four = fine_.steps < 4 ? Probe{} : with_step(4 * dt);
-    const double change = twice.ok() ? difference(twice, fine_) : 0;
-    double order = fine_.order;
-    if (change > 0 && fine_.steps >= 4 && four.ok())
-      order = std::clamp(std::log2(difference(four, twice) / change), slowest_order, order);
-    const double error = twice.ok() ? change / (std::exp2(order) - 1) : 1;
     const double longest = longest_that_saves(twice, four);
+    const auto [order, error] = step_error(twice, four);
     double factor = longest;
     if (error > 0) factor = std::pow(trial_.for_the_step / error, 1 / order);
     factor = std::clamp(factor, shortest_step, longest);
@@ -100,16 +118,13 @@ class Judge {
     found_.step_error = error * std::pow(found_.step / dt, order);
     trial_.say(fmt::format("{:<34}{:>14}{:>12}  order {:.1f}: {:.4g} s for {}", fmt::format("step of {:.4g} s", dt),
                            percent(error), "", order, found_.step, percent(found_.step_error)));
+    if (found_.step < step_ * (1 - same_step)) fine_ = with_step(step_ = found_.step);
   }
 
   /// Over the probe's: longer steps that need more Newton iterations for it, or are cut, save nothing.
   double longest_that_saves(const Probe& twice, const Probe& four) const {
     if (!twice.ok() || (fine_.newton > 0 && twice.newton >= fine_.newton)) return 1;
     return !four.ok() || (four.newton > 0 && four.newton >= twice.newton) ? longest_step / 2 : longest_step;
-  }
-
-  Probe with_step(double dt) {
-    return trial_.run(joined(joined(settings_, trial_.mesh.overrides()), {fmt::format("time.step={:.9g} s", dt)}));
   }
 
   /// Equal steps of at most this length. Those of the scene that end at a kink still do: a step over one sees a mean of
@@ -125,7 +140,7 @@ class Judge {
 
   void estimate_cost() {
     const double finer = found_.mesh.over(trial_.mesh);
-    const double steps = trial_.clock.by_stability ? finer : trial_.clock.step / found_.step;
+    const double steps = trial_.clock.by_stability ? finer : step_ / found_.step;
     found_.cost = fine_.cpu_seconds * solve_cost(std::pow(finer, static_cast<double>(trial_.mesh.dimension()))) *
                   std::max(steps, 1 / longest_step);
   }
@@ -133,6 +148,7 @@ class Judge {
   const Trial& trial_;
   Candidate found_;
   Overrides settings_;
+  double step_;  // [s] of the probes
   Probe fine_;
 };
 
