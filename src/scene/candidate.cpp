@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace titin {
 namespace {
@@ -12,6 +13,7 @@ using Overrides = std::vector<std::string>;
 
 constexpr double shortest_step = 1.0 / 16, coarsest_mesh = 0.5, finest_mesh = 6;  // over the probe's
 constexpr double same_step = 1e-6;                                                // round-off in a length
+constexpr double shown = 0.75;                           // of the scheme's order: less is not yet its own
 constexpr double slowest_rate = 1, slowest_order = 0.5;  // in space; in time, where what is followed jumps
 /// Block solver 1.0 to 1.1 (docs/verification/solvers.md), factors 1.5.
 constexpr double cost_exponent = 1.2;
@@ -104,20 +106,27 @@ class Judge {
     return {order, twice.ok() ? change / (std::exp2(order) - 1) : 1};
   }
 
+  /// Steps that are too long, and too long to show the scheme's order, are halved first.
   void choose_step() {
     const ClockConfig& clock = trial_.clock;
-    const double dt = found_.step = clock.step;
+    found_.step = clock.step;
     if (fine_.steps < 2 || clock.tolerance > 0) return;
-    const Probe twice = with_step(2 * dt), four = fine_.steps < 4 ? Probe{} : with_step(4 * dt);
-    const double longest = longest_that_saves(twice, four);
-    const auto [order, error] = step_error(twice, four);
-    double factor = longest;
-    if (error > 0) factor = std::pow(trial_.for_the_step / error, 1 / order);
-    factor = std::clamp(factor, shortest_step, longest);
-    found_.step = clock.end / steps_for(dt * factor);
-    found_.step_error = error * std::pow(found_.step / dt, order);
-    trial_.say(fmt::format("{:<34}{:>14}{:>12}  order {:.1f}: {:.4g} s for {}", fmt::format("step of {:.4g} s", dt),
-                           percent(error), "", order, found_.step, percent(found_.step_error)));
+    Probe twice = with_step(2 * step_), four = fine_.steps < 4 ? Probe{} : with_step(4 * step_);
+    const double shortest = clock.step * shortest_step, longest = clock.step * longest_that_saves(twice, four);
+    StepError seen = step_error(twice, four);
+    while (seen.order < shown * fine_.order && seen.error > trial_.for_the_step && step_ > shortest) {
+      Probe half = with_step(step_ / 2);
+      if (!half.ok()) break;
+      four = std::exchange(twice, std::exchange(fine_, std::move(half)));
+      step_ /= 2;
+      seen = step_error(twice, four);
+    }
+    double step = longest;
+    if (seen.error > 0) step = step_ * std::pow(trial_.for_the_step / seen.error, 1 / seen.order);
+    found_.step = clock.end / steps_for(std::clamp(step, shortest, longest));
+    found_.step_error = seen.error * std::pow(found_.step / step_, seen.order);
+    trial_.say(fmt::format("{:<34}{:>14}{:>12}  order {:.1f}: {:.4g} s for {}", fmt::format("step of {:.4g} s", step_),
+                           percent(seen.error), "", seen.order, found_.step, percent(found_.step_error)));
     if (found_.step < step_ * (1 - same_step)) fine_ = with_step(step_ = found_.step);
   }
 
