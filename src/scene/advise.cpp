@@ -25,7 +25,9 @@ namespace {
 using Overrides = std::vector<std::string>;
 using Say = std::function<void(const std::string&)>;
 
+/// A probe has at most so many unknowns, or costs at most so much: a part of the scene as it is, or CPU seconds.
 constexpr long probe_unknowns = 3000;
+constexpr double probe_part = 0.05, probe_seconds = 0.5;
 constexpr double for_simplifications = 0.25, for_the_step = 0.25, for_the_mesh = 0.5;  // of the tolerance
 /// Of the largest quantity of the same unit: what Newton's tolerance leaves of a zero, and what round-off does.
 constexpr double vanishing = 1e-6, vanishing_explicit = 1e-12;
@@ -90,27 +92,44 @@ class Adviser {
     return none;
   }
 
-  /// The scene's own mesh, halved until it is small; a scene that cannot be read on a coarser one (a box of averages
-  /// that then holds no cell) keeps the finer.
+  /// The scene's own mesh, halved until a probe is small or cheap; a scene that cannot be read on a coarser one (a box
+  /// of averages that then holds no cell) keeps the finer.
   void choose_mesh() {
     mesh_ = asked_;
+    std::vector<MeshChoice> finer;
     long unknowns = scene_.model->unknowns();
     scene_.model.reset();
     for (auto half = mesh_.halved(); unknowns > probe_unknowns && half; half = mesh_.halved()) try {
         const Scene coarse =
             Scene::read(options_.scene_file, joined(joined(options_.overrides, common_), half->overrides()));
         unknowns = coarse.model->unknowns();
+        finer.push_back(mesh_);
         mesh_ = *half;
       } catch (const InputError&) {
         break;
       }
     base_ = run(mesh_.overrides());
+    refine_while_cheap(finer);
     if (!base_.ok())
       throw InputError({fmt::format("{}: the probe on {} does not get to the end: {}", options_.scene_file,
                                     mesh_.words(), base_.failure)});
     if (base_.largest <= (explicit_ ? vanishing_explicit : vanishing) * base_.largest_of_unit)
       throw InputError({fmt::format("{} stays zero here, as far as its own kind goes; name another quantity",
                                     in_quotes(advice_.quantity))});
+  }
+
+  /// `finer`: the finest first.
+  void refine_while_cheap(const std::vector<MeshChoice>& finer) {
+    const auto cost = [&](const MeshChoice& mesh) {
+      return base_.cpu_seconds * cost_of(mesh.over(mesh_), mesh_.dimension(), explicit_);
+    };
+    as_asked_ = cost(asked_);
+    const double most = std::max(probe_seconds, probe_part * as_asked_);
+    const auto next = std::find_if(finer.begin(), finer.end(), [&](const auto& mesh) { return cost(mesh) <= most; });
+    if (!base_.ok() || next == finer.end()) return;
+    mesh_ = *next;
+    base_ = run(mesh_.overrides());
+    as_asked_ = cost(asked_);
   }
 
   // ---- simplifications
@@ -189,12 +208,9 @@ class Adviser {
     advice_.proposal = proposal_of(best);
     advice_.error = best.all() + simplified_;
     advice_.reached = best.all() <= wanted;
-    const double finer = asked_.over(mesh_);
-    const double as_asked = base_.cpu_seconds * solve_cost(std::pow(finer, static_cast<double>(mesh_.dimension()))) *
-                            (explicit_ ? finer : 1);
     say("\nproposal: {}", fmt::join(quoted(advice_.proposal), " "));
     say("  within about {} of the answer; about {:.2g} CPU s (the scene as it is: about {:.2g})",
-        percent(advice_.error), best.cost, as_asked);
+        percent(advice_.error), best.cost, as_asked_);
     mention_explicit(best);
   }
 
@@ -242,6 +258,7 @@ class Adviser {
   Overrides common_, taken_;
   MeshChoice asked_, mesh_;  // of the scene; of the probes
   Probe base_;               // as asked
+  double as_asked_ = 0;      // [CPU s] of the scene, estimated
   double simplified_ = 0;    // what was taken changes, added
   Advice advice_;
 };

@@ -39,9 +39,8 @@ struct Trial {
 /// The scene's own order and the one below it, as far as their probes get to the end. Collective.
 std::vector<Candidate> candidates(const Trial& trial);
 
-/// CPU time of an implicit solve over that on one mesh, on one with so many times the unknowns.
-double solve_cost(double unknowns);
-
-inline constexpr double longest_step = 4;  // over the probe's
+/// CPU time of a run on a mesh with so many times the cells along every edge, over that on this one; steps by stability
+/// get shorter with the cells.
+double cost_of(double finer, std::size_t dimension, bool by_stability);
 
 }  // namespace titin
