@@ -13,6 +13,7 @@
 #include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "scene/candidate.hpp"
+#include "scene/explicit_or_implicit.hpp"
 #include "scene/mesh_choice.hpp"
 #include "scene/probe.hpp"
 #include "scene/scene.hpp"
@@ -211,7 +212,10 @@ class Adviser {
     say("\nproposal: {}", fmt::join(quoted(advice_.proposal), " "));
     say("  within about {} of the answer; about {:.2g} CPU s (the scene as it is: about {:.2g})",
         percent(advice_.error), best.cost, as_asked_);
-    mention_explicit(best);
+    const double steps = base_.steps * best.mesh.over(mesh_);
+    const std::string other = explicit_ ? implicit_instead(facts_, base_, steps, for_the_step * advice_.tolerance)
+                                        : explicit_instead(facts_, best, scene_.clock.end);
+    if (!other.empty()) tell(other);
   }
 
   Overrides proposal_of(const Candidate& best) const {
@@ -229,24 +233,6 @@ class Adviser {
       } catch (const InputError&) {
         best.mesh = best.mesh.scaled(2);
       }
-  }
-
-  /// Steps of the explicit formulation: c dt = 0.4 h, c^2 = K / rho of the stiffest material.
-  void mention_explicit(const Candidate& best) {
-    const auto box = facts_.numbers("mesh.box");
-    if (explicit_ || box.empty()) return;
-    double fastest = 0;
-    for (const std::string& key : facts_.below("materials.")) {
-      const auto at = key.find(".volumetric.bulk_modulus");
-      if (at == std::string::npos) continue;
-      fastest = std::max(fastest, std::sqrt(facts_.number(key) / facts_.number(key.substr(0, at) + ".density")));
-    }
-    double h = box[0];
-    for (std::size_t i = 0; i < best.mesh.cells.size(); ++i)
-      h = std::min(h, box[i] / (best.mesh.cells[i] * std::max(1, best.order)));
-    if (fastest > 0)
-      say("  explicit steps (model = \"lagrange\") of the same nodes would be about {:.3g}, implicit ones are {:.0f}",
-          scene_.clock.end * fastest / (0.4 * h), scene_.clock.end / best.step);
   }
 
   const AdviseOptions& options_;

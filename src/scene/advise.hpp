@@ -2,12 +2,12 @@
 /// from cheap runs, and the cheapest setting that keeps it within a tolerance.
 ///
 /// All runs ("probes") are of the scene on its own mesh, halved until one has at most 3000 unknowns, or costs half a
-/// second or a twentieth of the scene's run. A simplification costs what it changes there: max |q - q0| / max |q0| over
-/// time. The step's own error is by Richardson from steps of twice and four times the length, with the order that these
-/// show, at most the scheme's, and from shorter ones where these show too little of it; the mesh's from meshes of half
-/// and a quarter of the cells along an edge with the rate that these show, between 1 and k + 1, or 1 if there is no
-/// third mesh, with the step that was chosen if that is the shorter one. A quarter of the tolerance is for
-/// simplifications, a quarter for the step, half for the mesh; the parts are added, not their squares.
+/// second or a twentieth of the scene. A simplification costs what it changes there: max |q - q0| / max |q0| over time.
+/// The step's own error is by Richardson from steps of twice and four times the length, with the order that these show,
+/// at most the scheme's; steps that are too long to show three quarters of it are halved first. The mesh's is from
+/// meshes of half and a quarter of the cells along an edge, with the step that was chosen if that is the shorter one,
+/// and with the rate that these show, between 1 and k + 1, or 1 if there is no third mesh. A quarter of the tolerance is
+/// for simplifications, a quarter for the step, half for the mesh; the parts are added, not their squares.
 #pragma once
 
 #include <functional>

@@ -102,4 +102,20 @@ double difference(const Probe& a, const Probe& b) {
   return b.largest > 0 ? apart / b.largest : apart;
 }
 
+int lines_that_follow(const Probe& probe, double error) {
+  const auto missed = [&](int lines) {
+    const double length = (probe.times.back() - probe.times.front()) / lines;
+    double most = 0;
+    for (std::size_t k = 0; k < probe.times.size(); ++k) {
+      const double line = std::floor((probe.times[k] - probe.times.front()) / length);
+      const double from = probe.times.front() + line * length, part = (probe.times[k] - from) / length;
+      most = std::max(most, std::abs((1 - part) * at(probe, from) + part * at(probe, from + length) - probe.values[k]));
+    }
+    return most;
+  };
+  int lines = 1;
+  while (lines < probe.steps && missed(lines) > error * probe.largest) lines *= 2;
+  return lines;
+}
+
 }  // namespace titin

@@ -25,4 +25,7 @@ Probe probe(const std::string& file, const std::vector<std::string>& overrides, 
 /// the end.
 double difference(const Probe& a, const Probe& b);
 
+/// Fewest straight lines over equal times, a power of two, that miss it by at most this part of its largest value.
+int lines_that_follow(const Probe& probe, double error);
+
 }  // namespace titin
