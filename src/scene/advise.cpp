@@ -125,13 +125,15 @@ class Adviser {
       return base_.cpu_seconds * cost_of(mesh.over(mesh_), mesh_.dimension(), explicit_);
     };
     as_asked_ = cost(asked_);
-    const double most = std::max(probe_seconds, probe_part * as_asked_);
-    const auto next = std::find_if(finer.begin(), finer.end(), [&](const auto& mesh) { return cost(mesh) <= most; });
+    const auto next =
+        std::find_if(finer.begin(), finer.end(), [&](const auto& mesh) { return cost(mesh) <= dearest(); });
     if (!base_.ok() || next == finer.end()) return;
     mesh_ = *next;
     base_ = run(mesh_.overrides());
     as_asked_ = cost(asked_);
   }
+
+  double dearest() const { return std::max(probe_seconds, probe_part * as_asked_); }
 
   // ---- simplifications
 
@@ -190,7 +192,8 @@ class Adviser {
                 .asked = base_,
                 .base = taken_.empty() ? base_ : run(joined(taken_, mesh_.overrides())),
                 .for_the_mesh = for_the_mesh * advice_.tolerance,
-                .for_the_step = for_the_step * advice_.tolerance};
+                .for_the_step = for_the_step * advice_.tolerance,
+                .dearest = dearest()};
     if (facts_.has("rod.kind") && mesh_.key != "rod.cells") trial.order_key = "";
     if (!trial.order_key.empty()) trial.own_order = facts_.whole(trial.order_key);
     return trial;

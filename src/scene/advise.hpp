@@ -6,8 +6,9 @@
 /// The step's own error is by Richardson from steps of twice and four times the length, with the order that these show,
 /// at most the scheme's; steps that are too long to show three quarters of it are halved first. The mesh's is from
 /// meshes of half and a quarter of the cells along an edge, with the step that was chosen if that is the shorter one,
-/// and with the rate that these show, between 1 and k + 1, or 1 if there is no third mesh. A quarter of the tolerance is
-/// for simplifications, a quarter for the step, half for the mesh; the parts are added, not their squares.
+/// and with the rate that these show, between 1 and k + 1, or 1 if there is no third mesh; where it is 1, cells are
+/// halved first, as long as a probe costs no more than said above. A quarter of the tolerance is for simplifications, a
+/// quarter for the step, half for the mesh; the parts are added, not their squares.
 #pragma once
 
 #include <functional>

@@ -35,7 +35,7 @@ bool meets(const std::vector<double>& times, double end, double steps, double dt
 /// Judges one order.
 class Judge {
  public:
-  Judge(const Trial& trial, int order) : trial_(trial), step_(trial.clock.step) {
+  Judge(const Trial& trial, int order) : trial_(trial), mesh_(trial.mesh), step_(trial.clock.step) {
     found_.order = order;
     if (order != trial.own_order) found_.overrides = {fmt::format("{}={}", trial.order_key, order)};
     settings_ = joined(trial.taken, found_.overrides);
@@ -65,15 +65,31 @@ class Judge {
     if (step != trial_.clock.step) all.push_back(fmt::format("time.step={:.9g} s", step));
     return trial_.run(all);
   }
-  Probe with_step(double step) const { return run(settings_, trial_.mesh, step); }
+  Probe with_step(double step) const { return run(settings_, mesh_, step); }
 
-  /// At the probe.
+  /// At the probe, on a finer mesh where it is too coarse to show an order.
   double mesh_error() {
-    const auto half = trial_.mesh.halved();
+    const double error = mesh_error_here();
+    return error > trial_.for_the_mesh && found_.rate <= slowest_rate && refined() ? mesh_error() : error;
+  }
+
+  /// While that is cheap.
+  bool refined() {
+    const MeshChoice finer = mesh_.scaled(2);
+    const double cost = fine_.cpu_seconds * cost_of(2, mesh_.dimension(), trial_.clock.by_stability);
+    if (cost > trial_.dearest) return false;
+    Probe probe = run(settings_, finer, step_);
+    if (!probe.ok()) return false;
+    mesh_ = finer, fine_ = std::move(probe);
+    return true;
+  }
+
+  double mesh_error_here() {
+    const auto half = mesh_.halved();
     if (!half) return 0;
     const Probe coarse = run(settings_, *half, step_);
     if (!coarse.ok()) return 1;
-    const double change = difference(coarse, fine_), ratio = trial_.mesh.over(*half);
+    const double change = difference(coarse, fine_), ratio = mesh_.over(*half);
     const auto quarter = half->halved();
     const Probe coarsest = quarter ? run(settings_, *quarter, step_) : Probe{};
     if (quarter && coarsest.ok() && change > 0)
@@ -81,15 +97,16 @@ class Judge {
                                slowest_rate, found_.order + 1.0);
     double error = change / (std::pow(ratio, found_.rate) - 1);
     if (found_.overrides.empty()) return error;
-    const Probe own = step_ == trial_.clock.step ? trial_.base : run(trial_.taken, trial_.mesh, step_);
+    const bool as_it_was = step_ == trial_.clock.step && mesh_.over(trial_.mesh) == 1;
+    const Probe own = as_it_was ? trial_.base : run(trial_.taken, mesh_, step_);
     return own.ok() ? std::max(error, difference(fine_, own)) : 1;  // a lower order's own trend may deceive
   }
 
   void choose_mesh(double at_probe) {
     const double factor =
         std::clamp(std::pow(at_probe / trial_.for_the_mesh, 1 / found_.rate), coarsest_mesh, finest_mesh);
-    found_.mesh = trial_.mesh.scaled(factor);
-    found_.mesh_error = at_probe * std::pow(found_.mesh.over(trial_.mesh), -found_.rate);
+    found_.mesh = mesh_.scaled(factor);
+    found_.mesh_error = at_probe * std::pow(found_.mesh.over(mesh_), -found_.rate);
   }
 
   struct StepError {
@@ -148,16 +165,17 @@ class Judge {
   }
 
   void estimate_cost() {
-    const double finer = found_.mesh.over(trial_.mesh);
+    const double finer = found_.mesh.over(mesh_);
     const bool by_stability = trial_.clock.by_stability;
-    found_.cost = fine_.cpu_seconds * cost_of(finer, trial_.mesh.dimension(), by_stability);
+    found_.cost = fine_.cpu_seconds * cost_of(finer, mesh_.dimension(), by_stability);
     if (!by_stability) found_.cost *= step_ / found_.step;
   }
 
   const Trial& trial_;
   Candidate found_;
   Overrides settings_;
-  double step_;  // [s] of the probes
+  MeshChoice mesh_;  // of the probes
+  double step_;      // [s] of the same
   Probe fine_;
 };
 
