@@ -61,7 +61,7 @@ class Adviser {
     if (!facts_.below("averages.").empty() && !advice_.quantity.starts_with("mean_")) common_.push_back("~averages");
   }
 
-  Advice go() {
+  Proposal go() {
     choose_mesh();
     say("{}: \"{}\" within {}", options_.scene_file, advice_.quantity, percent(advice_.tolerance));
     say("probes on {}, {} unknowns, {}: {:.2g} CPU s each\n", mesh_.words(), base_.unknowns, count(base_.steps, "step"),
@@ -249,10 +249,10 @@ class Adviser {
   Probe base_;               // as asked
   double as_asked_ = 0;      // [CPU s] of the scene, estimated
   double simplified_ = 0;    // what was taken changes, added
-  Advice advice_;
+  Proposal advice_;
 };
 
-void write(const AdviseOptions& options, const Advice& advice) {
+void write(const AdviseOptions& options, const Proposal& advice) {
   const Scene scene =
       Scene::read(options.scene_file, joined(options.overrides, as_chosen(advice.proposal, advice.quantity)));
   std::ofstream file;
@@ -266,23 +266,23 @@ void write(const AdviseOptions& options, const Advice& advice) {
 
 }  // namespace
 
-std::string Advice::summary() const {
+std::string Proposal::summary() const {
   return fmt::format("for \"{}\" within {}: {}", quantity, percent(tolerance), fmt::join(quoted(proposal), " "));
 }
 
-std::string Advice::problem() const {
+std::string Proposal::problem() const {
   return reached ? ""
                  : fmt::format("the tolerance of {} is not reached: what this proposes is as far as probes can tell",
                                percent(tolerance));
 }
 
-Advice find_advice(const AdviseOptions& options, const Say& listen) { return Adviser(options, listen).go(); }
+Proposal find_advice(const AdviseOptions& options, const Say& listen) { return Adviser(options, listen).go(); }
 
 void advise(const AdviseOptions& options) {
   std::error_code ignored;
   if (!options.apply.empty() && any_of(std::filesystem::exists(options.apply, ignored)))
     throw InputError({fmt::format("{} is there already; name another file with --apply", in_quotes(options.apply))});
-  const Advice advice =
+  const Proposal advice =
       find_advice(options, [](const std::string& line) { logging::write(logging::Level::normal, line); });
   if (!advice.reached) logging::warning(advice.problem());
   if (!options.apply.empty()) write(options, advice);

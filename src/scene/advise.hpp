@@ -26,7 +26,7 @@ struct AdviseOptions {
 };
 
 /// A proposal.
-struct Advice {
+struct Proposal {
   std::vector<std::string> proposal;  ///< overrides
   std::string quantity;
   double tolerance = 0, error = 0;  ///< asked for, estimated
@@ -37,7 +37,7 @@ struct Advice {
 };
 
 /// Tells the estimates as it finds them, if anybody listens. Collective. Throws InputError.
-Advice find_advice(const AdviseOptions& options, const std::function<void(const std::string&)>& listen = {});
+Proposal find_advice(const AdviseOptions& options, const std::function<void(const std::string&)>& listen = {});
 
 /// Prints the estimates and the proposal, and writes the scene with it. Collective. Throws InputError.
 void advise(const AdviseOptions& options);

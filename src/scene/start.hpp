@@ -11,7 +11,7 @@ namespace titin {
 struct Start {
   Scene scene;
   std::vector<std::string> choice;  // overrides that fidelity = "auto" came to, now or before the restart
-  Advice advice;                    // of a run that has just chosen
+  Proposal advice;                  // of a run that has just chosen
   FoundCheckpoint checkpoint;       // of a restart
   /// What was chosen, in a line; "" of a scene that is run as it is written.
   std::string chosen() const;
