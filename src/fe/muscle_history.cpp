@@ -15,7 +15,8 @@ const char* const component_name[] = {"x", "y", "z"};
 
 }  // namespace
 
-MuscleHistory::MuscleHistory(MuscleSystem& system) : system_(system), attachments_(system), torques_(system) {
+MuscleHistory::MuscleHistory(MuscleSystem& system)
+    : system_(system), attachments_(system), torques_(system), momenta_(system) {
   const MuscleConfig& config = system.config();
   int max_attribute = 0;
   for (const auto& [attribute, name] : config.material_of_region) max_attribute = std::max(max_attribute, attribute);
@@ -75,39 +76,31 @@ void MuscleHistory::update(const mfem::Vector& u, const mfem::Vector& v, const S
   dissipated_by_support_.resize(system_.config().boundaries.size());
   add_support_dissipation(step);
   forces_ = system_.forces();
-  kinetic_ = volumetric_ = volume_ = 0;
+  momenta_.update(u, v);
+  volumetric_ = volume_ = 0;
   for (auto& term : terms_)
     if (term.stored) term.value = term.dissipated = 0;
   for (auto& mean : means_) mean.volume = mean.stretch = mean.pennation = mean.rate = 0;
-  const std::vector<double> v_cells = system_.cell_values(v);
   end_weight_ = step.work_weight;
   next_stress_ = 0;
   system_.for_each_cell(u, [&](int cell, const Material& material, const ThreeField& kernel) {
-    add_cell(cell, material, kernel, kernel.points(system_.point_input(cell)), &v_cells[system_.first_value(cell)]);
+    add_cell(cell, material, kernel, kernel.points(system_.point_input(cell)));
   });
   add_boundary_work(u, step);
   attachments_.update(u, v, step, end_weight_);
   if (kinetic_at_start_ < 0) {
-    kinetic_at_start_ = kinetic_;
+    kinetic_at_start_ = momenta_.kinetic();
     stored_at_start_ = volumetric_;
     for (const auto& term : terms_)
       if (term.stored) stored_at_start_ += term.value;
   }
 }
 
-void MuscleHistory::add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in,
-                             const double* v) {
-  const CellTables& tables = system_.tables();
-  const bool moving = system_.config().inertia == Inertia::dynamic;
+void MuscleHistory::add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in) {
   for (int q = 0; q < in.n; ++q) {
-    const double w = tables.weight(cell, q);
+    const double w = system_.tables().weight(cell, q);
     volume_ += w * kernel.J()[q];
     volumetric_ += w * material.volumetric(kernel.dilatation()[q]).U;
-    for (int i = 0; i < tables.dimension() && moving; ++i) {
-      double velocity = 0;
-      for (int a = 0; a < tables.nodes(cell); ++a) velocity += tables.shape(cell, q)[a] * v[i * tables.nodes(cell) + a];
-      kinetic_ += 0.5 * material.density() * w * velocity * velocity;
-    }
   }
   add_terms(cell, material, kernel, in);
   add_means(cell, material, kernel, in);
@@ -243,7 +236,8 @@ std::vector<Quantity> MuscleHistory::quantities() const {
     for (int i = 0; i < system_.tables().dimension() && boundaries[b].constrained(); ++i)
       list.push_back(reaction(static_cast<int>(b), i));
   torques_.list(u_, forces_, list);
-  const double kinetic = sum(kinetic_), volumetric = sum(volumetric_);
+  momenta_.list(list);
+  const double kinetic = sum(momenta_.kinetic()), volumetric = sum(volumetric_);
   list.push_back({"energy_kinetic", "J", kinetic});
   list.push_back({"energy_volumetric", "J", volumetric});
   double stored = volumetric, done = 0;

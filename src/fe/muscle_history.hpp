@@ -1,4 +1,4 @@
-/// Numbers that a muscle run is followed by: reactions, energies, volume, means, markers.
+/// Numbers that a muscle run is followed by: reactions, energies, momenta, volume, means, markers.
 ///
 /// Work is summed over the steps. For backward Euler it is that of the forces at the end of each step. With the weak
 /// form tested by the step's displacement this makes an identity, to solver tolerance,
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "fe/attachment_history.hpp"
+#include "fe/momenta.hpp"
 #include "fe/muscle_system.hpp"
 #include "fe/reaction_torques.hpp"
 #include "solve/model.hpp"
@@ -45,7 +46,7 @@ class MuscleHistory {
     bool fibres = true;
     double volume = 0, stretch = 0, pennation = 0, rate = 0;  // sums weighted with current volume; [m^3]
   };
-  void add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in, const double* v);
+  void add_cell(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
   void add_terms(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
   double energy_of_curves(int cell, int term, const Material& material, const ThreeField& kernel, PointInput in) const;
   void add_means(int cell, const Material& material, const ThreeField& kernel, const PointInput& in);
@@ -60,6 +61,7 @@ class MuscleHistory {
   MuscleSystem& system_;
   AttachmentHistory attachments_;
   ReactionTorques torques_;
+  Momenta momenta_;
   std::vector<TermAccount> terms_;
   std::vector<std::vector<int>> terms_of_region_;  // [attribute][term of the material] -> account
   std::vector<Mean> means_;
@@ -76,7 +78,7 @@ class MuscleHistory {
   std::vector<Mat3> P_old_;      // [cell][term][point]
   std::size_t next_stress_ = 0;  // of these, while cells are visited
   double end_weight_ = 1;        // of the forces at the end of a step in its work; those at its beginning have the rest
-  double kinetic_ = 0, volumetric_ = 0, volume_ = 0, work_boundary_ = 0, work_body_ = 0, kinetic_at_start_ = -1;
+  double volumetric_ = 0, volume_ = 0, work_boundary_ = 0, work_body_ = 0, kinetic_at_start_ = -1;
   double stored_at_start_ = 0;
   std::vector<double> dissipated_by_support_;  // [boundary]; this rank's part
   std::string shown_;

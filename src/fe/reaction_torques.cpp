@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include "base/parallel.hpp"
+#include "fe/momenta.hpp"
 
 namespace titin {
 
 ReactionTorques::ReactionTorques(MuscleSystem& system) : system_(system) {
-  if (system.config().torques.empty()) return;
-  mfem::VectorFunctionCoefficient place(system.tables().dimension(),
-                                        [](const mfem::Vector& X, mfem::Vector& x) { x = X; });
-  mfem::ParGridFunction field(&system.space());
-  field.ProjectCoefficient(place);
-  X_.SetSize(system.size());
-  field.GetTrueDofs(X_);
+  if (!system.config().torques.empty()) X_ = places_of_dofs(system.space());
 }
 
 /// This rank's part. Components of a node follow each other.

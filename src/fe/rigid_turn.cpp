@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "fe/momenta.hpp"
+#include "mesh/simplex_geometry.hpp"
 
 namespace titin {
 
@@ -10,10 +12,6 @@ namespace {
 
 constexpr int max_iterations = 30;  // of the polar decomposition, which doubles its digits
 constexpr double round_off = 1e-14;
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// The rotation about `angle` by its length (Rodrigues).
 Mat3 rotation(const Vec3& angle) {
@@ -54,12 +52,7 @@ Mat3 orthogonal_factor(Mat3 R) {
 }  // namespace
 
 RigidTurn::RigidTurn(mfem::ParFiniteElementSpace& space)
-    : dimension_(space.GetVDim()), nodes_(space.GetTrueVSize() / dimension_), X_(space.GetTrueVSize()) {
-  mfem::VectorFunctionCoefficient place(dimension_, [](const mfem::Vector& X, mfem::Vector& x) { x = X; });
-  mfem::ParGridFunction field(&space);
-  field.ProjectCoefficient(place);
-  field.GetTrueDofs(X_);
-}
+    : dimension_(space.GetVDim()), nodes_(space.GetTrueVSize() / dimension_), X_(places_of_dofs(space)) {}
 
 Vec3 RigidTurn::at(const mfem::Vector& v, int node) const {
   Vec3 x{};
