@@ -1,7 +1,8 @@
 """Two revisions against each other: both are built, run the same cases in turn on this machine, and the ratios of their CPU seconds are printed.
 Used by scripts/bench.py --compare.
 
-The older one is built in the cache (titin/compare/COMMIT: delete it at will), against the MFEM of this tree's build folder. Both run the scenes of this tree.
+The older one is built in the cache (titin/compare/COMMIT: delete it at will), against the MFEM of this tree's build folder; what two of them have alike is
+compiled once, where ccache is. Both run the scenes of this tree.
 Each repetition runs one after the other, so that both have the same company on the machine; what counts is the ratio within a repetition.
 """
 import json
@@ -34,9 +35,9 @@ class Revision:
         return (self.source / "miniapps" / f"{name}.cpp").exists()
 
 
-def quietly(command, log):
+def quietly(command, log, settings=None):
     with open(log, "a") as out:
-        if subprocess.run(command, stdout=out, stderr=out).returncode:
+        if subprocess.run(command, stdout=out, stderr=out, env=os.environ | (settings or {})).returncode:
             raise Problem(f"{' '.join(map(str, command[:2]))} failed; see {log}")
 
 
@@ -59,7 +60,9 @@ def older(name, build):
     if not (revision.build / "build.ninja").exists():
         kept = re.findall(r"^((?:TITIN_MFEM_PREFIX|TITIN_ARCH|CMAKE_CXX_COMPILER_LAUNCHER|CMAKE_BUILD_TYPE):\w+=.*)$",
                           (build / "CMakeCache.txt").read_text(), re.M)  # fmt: skip
-        quietly(["cmake", "-S", revision.source, "-B", revision.build, "-G", "Ninja", *(f"-D{line}" for line in kept)], folder / "configure.log")
+        # ccache takes objects that were made with a precompiled header only when GCC reads it so.
+        readable = ["-DCMAKE_CXX_FLAGS=-fpch-preprocess"] if any("ccache" in line for line in kept) else []
+        quietly(["cmake", "-S", revision.source, "-B", revision.build, "-G", "Ninja", *(f"-D{line}" for line in kept), *readable], folder / "configure.log")
     return revision
 
 
@@ -70,7 +73,8 @@ def build_both(name, build, programs):
     for revision in pair:
         print(f"[compare] building {revision.name} (minutes the first time)", flush=True)
         log = revision.build / "compare.log"
-        quietly(["cmake", "--build", revision.build, "--target", *filter(revision.has, programs)], log)
+        shared = {"CCACHE_BASEDIR": str(revision.source.parent), "CCACHE_SLOPPINESS": "pch_defines,time_macros"} if revision is pair[0] else {}
+        quietly(["cmake", "--build", revision.build, "--target", *filter(revision.has, programs)], log, shared)
     return pair
 
 
@@ -105,12 +109,12 @@ def run_of(scene, work):
 
 
 def run_once(revision, run):
-    """What run.json says; of a scene that it refuses, nothing but the reason."""
+    """What run.json says; of a scene that it refuses or that ends without it, nothing but the reason."""
     folder = run.folder / revision.name.replace(" ", "_")
     command = [revision.program("titin"), "run", *run.arguments, "-o", str(folder), "--overwrite", "-q"]
     found = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, env=environment.mpi())
-    if found.returncode == 1:
-        return {"refused": found.stderr.strip().splitlines()[-1]}
+    if found.returncode == 1 or not (folder / "run.json").exists():
+        return {"refused": (found.stderr.strip().splitlines() or [f"exit code {found.returncode}"])[-1]}
     return json.loads((folder / "run.json").read_text())
 
 
