@@ -14,8 +14,8 @@ A bench is a file of configs/bench/:
 
     title = "The swinging plate"
     reference = "exact for small amplitudes"     # what the error is against; named on the chart
-    error = "velocity_L2"                        # of errors in run.json, or "COLUMN of history, largest" (smallest, last, variation,
-                                                 # range: largest minus smallest)
+    error = "velocity_L2"                        # of errors in run.json, "PATH of run.json" (newton.total), or "COLUMN of history, largest"
+                                                 # (smallest, last, variation, range: largest minus smallest; momentum_*: of all axes together)
     label = "error of the velocity in L2"        # of the axis
     exact = 0.0                                  # what is taken from it, where it is a value and no error yet
     scale = 1.0                                  # what that is divided by

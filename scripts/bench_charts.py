@@ -106,7 +106,7 @@ def draw_map(bench, rows):
                 colour = classify(bench, row, best)
                 place = (xs.index(px), ys.index(py))
                 axis.add_patch(plt.Rectangle((place[0] - 0.47, place[1] - 0.45), 0.94, 0.9, color=colour, linewidth=0))
-                text = "fails" if row.status != "finished" or not math.isfinite(row.error) else f"{row.error:.1e}".replace("e-0", "e-").replace("e+00", "")
+                text = "fails" if row.status != "finished" or not math.isfinite(row.error) else number(row.error)
                 axis.text(*place, text, ha="center", va="center", fontsize=7, color="white" if colour != DEGRADES else INK)
     axis.set(xlim=(-0.5, len(xs) - 0.5), ylim=(-0.5, len(ys) - 0.5), xticks=range(len(xs)), yticks=range(len(ys)))
     axis.set_xticklabels(bench.map.get("x_ticks", [str(x) for x in xs]), fontsize=8)
@@ -115,12 +115,17 @@ def draw_map(bench, rows):
     axis.tick_params(length=0)
     axis.set_xlabel(bench.map.get("x_label", x_key))
     axis.set_ylabel(bench.map.get("y_label", "" if y_key == "sweep" else y_key))
-    wide = int(13 * figure.get_figwidth())
+    wide = int(12 * figure.get_figwidth())
     text = "\n".join([bench.title, *textwrap.wrap(f"{bench.label}; against: {bench.reference}", wide)])
     figure.suptitle(text, fontsize=9, fontweight="bold", x=0.01, ha="left")
     handles = [plt.Rectangle((0, 0), 1, 1, color=c) for c in (WORKS, DEGRADES, FAILS)]
     figure.legend(handles, ["works", "degrades", "fails"], loc="outside lower center", ncols=3, frameon=False, fontsize=8)
     return figure
+
+
+def number(x):
+    """Of a cell; counts as they are."""
+    return f"{x:.0f}" if x == round(x) and x < 1e4 else f"{x:.1e}".replace("e-0", "e-").replace("e+00", "")
 
 
 def value(case, key, line):

@@ -93,20 +93,27 @@ class Bench:
     # ---- what a run gave
 
     def error_of(self, line, case, run):
-        """A key of errors in run.json; or "COLUMN of history, largest | smallest | last | variation | range"."""
+        """A key of errors in run.json; "PATH of run.json"; or "COLUMN of history, largest | smallest | last | variation | range"."""
+        path, _, rest = line.error.partition(" of run.json")
+        if path != line.error and not rest:
+            for key in path.split("."):
+                run = run.get(key, {})
+            return run if isinstance(run, (int, float)) else math.nan
         column, _, how = line.error.partition(" of history, ")
         if not how:
             return run.get("errors", {}).get(line.error, math.nan)
-        try:
-            with open(line.sweep.folder / case.name / "history.csv", newline="") as file:
-                values = [float(row[column]) for row in csv.DictReader(file)]
-        except (OSError, KeyError, ValueError):
-            return math.nan
         ways = {"largest": max, "smallest": min, "last": lambda v: v[-1], "range": lambda v: max(v) - min(v),
                 "variation": lambda v: sum(abs(b - a) for a, b in zip(v, v[1:]))}  # fmt: skip
         if how not in ways:
             raise Problem(f"{self.path}: error: {how} is none of {', '.join(ways)}")
-        return ways[how](values)
+        columns = [column.replace("*", axis) for axis in "xyz"] if "*" in column else [column]
+        try:
+            with open(line.sweep.folder / case.name / "history.csv", newline="") as file:
+                rows = list(csv.DictReader(file))
+            values = [ways[how]([float(row[name]) for row in rows]) for name in columns]
+        except (OSError, KeyError, ValueError):
+            return math.nan
+        return values[0] if len(values) == 1 else math.hypot(*values)
 
     def row(self, line, case):
         run = line.sweep.summary(case)

@@ -183,25 +183,40 @@ TEST(Relaxation, IsMissedByMaxwellElementsInStepsOfItsOwnTime) {
   EXPECT_LT(relaxing("0.1 s", {"materials.gel.terms.branch.maxwell.viscosity=30 kPa s"}, 5.289724092), 0.05);
 }
 
-// ---- The tumbling bar: configs/bench/tumbling.toml
+// ---- The tumbling bar: configs/bench/tumbling.toml, tumbling_momentum.toml
 
-/// Change of the energy in some turns, over the energy; negative when the run ends before.
-double tumbled(const std::string& scheme, const std::string& step) {
+/// Of energy and angular momentum in some turns, over what there is; negative when the run ends before.
+struct Changes {
+  double energy = -1, spin = -1;
+};
+
+Changes tumbled(const std::string& scheme, const std::string& step) {
   const Ran ran = run("muscle/tumbling_bar", {"time.scheme=" + scheme, "time.step=" + step, "time.end=2 s"});
-  const double change = ran.failure.empty() ? ran.range("energy_balance_error") / 128.5333333 : -1;
-  fmt::print("{}, {}: {:.2e} {}\n", scheme, step, change, ran.failure);
-  return change;
+  Changes changes;
+  if (ran.failure.empty())
+    changes = {
+        ran.range("energy_balance_error") / 128.5333333,
+        std::hypot(ran.range("angular_momentum_x"), ran.range("angular_momentum_y"), ran.range("angular_momentum_z")) /
+            43.92640310};
+  fmt::print("{}, {}: energy {:.2e}, angular momentum {:.2e} {}\n", scheme, step, changes.energy, changes.spin,
+             ran.failure);
+  return changes;
 }
 
-TEST(Tumbling, KeepsItsEnergyInTheConservingSchemeWithElevenStepsATurn) {
+TEST(Tumbling, KeepsEnergyAndAngularMomentumInTheConservingSchemeWithElevenStepsATurn) {
   for (const char* step : {"50 ms", "100 ms"}) {
-    const double change = tumbled("energy_momentum", step);
-    EXPECT_GE(change, 0);
-    EXPECT_LT(change, 1e-8);
+    const Changes changes = tumbled("energy_momentum", step);
+    EXPECT_GE(changes.energy, 0);
+    EXPECT_LT(changes.energy, 1e-8);
+    EXPECT_LT(changes.spin, 1e-8);
   }
 }
 
-TEST(Tumbling, LosesItsEnergyInBackwardEuler) { EXPECT_GT(tumbled("backward_euler", "50 ms"), 0.2); }
+TEST(Tumbling, LosesBothInBackwardEuler) {
+  const Changes changes = tumbled("backward_euler", "50 ms");
+  EXPECT_GT(changes.energy, 0.2);
+  EXPECT_GT(changes.spin, 0.2);
+}
 
 // ---- Wall heating: configs/bench/wall_heating.toml
 
