@@ -218,6 +218,43 @@ TEST(Tumbling, LosesBothInBackwardEuler) {
   EXPECT_GT(changes.spin, 0.2);
 }
 
+// ---- Fibres that go slack: configs/bench/slack_fibres.toml, slack_rounding.toml
+
+/// The block sheared to and fro, both families of this law.
+Ran sheared(const std::string& law, const std::string& step) {
+  const Ran ran =
+      run("muscle/slack_fibres", {"time.step=" + step, "time.max_cuts=4", "materials.wall.terms.up={" + law + "}",
+                                  "materials.wall.terms.down={" + law + ", family=\"second\"}"});
+  fmt::print("{}, {}: {:.8f} N {}\n", law, step, ran.last.at("reaction_x+_y"), ran.failure);
+  return ran;
+}
+
+constexpr const char* sharp = "law=\"goh\", k1=\"2.5 MPa\", k2=1";
+
+TEST(SlackFibres, GoSlackAndTautInStepsOfAnyLengthAndGiveTheSameForce) {
+  for (const std::string law : {"law=\"linear_fibre\", stiffness=\"10 MPa\"", sharp}) {
+    const Ran coarse = sheared(law, "0.3 s"), fine = sheared(law, "30 ms");
+    EXPECT_EQ(coarse.failure + fine.failure, "");
+    const double force = fine.last.at("reaction_x+_y");
+    EXPECT_NEAR(coarse.last.at("reaction_x+_y"), force, 1e-5 * std::abs(force));
+  }
+}
+
+TEST(SlackFibres, WhoseStressJumpsEndTheRun) {
+  EXPECT_NE(sheared(std::string(sharp) + ", kappa=0.1, switch=\"I4\"", "30 ms").failure, "");
+  EXPECT_EQ(sheared(std::string(sharp) + ", kappa=0.1", "30 ms").failure, "");
+}
+
+TEST(SlackFibres, RoundedOffPullWhereTheyWereSlack) {
+  const double force = sheared(sharp, "0.1 s").last.at("reaction_x+_y");
+  const auto error = [&](const char* width) {
+    const Ran ran = sheared(std::string(sharp) + ", switch_width=" + width, "0.1 s");
+    return ran.last.at("reaction_x+_y") / force - 1;
+  };
+  EXPECT_LT(error("1e-3"), 2e-3);
+  EXPECT_GT(error("1e-2"), 0.01);
+}
+
 // ---- Wall heating: configs/bench/wall_heating.toml
 
 TEST(WallHeating, MakesGasThinAtTheOriginOfNohsImplosion) {
