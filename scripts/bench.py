@@ -40,7 +40,7 @@ A bench is a file of configs/bench/:
     [map]                                        # optional: a map of where methods work instead of curves
     x = "fv.cfl"                                 # keys that the sweeps vary
     y = "fv.predictor"                           # (or "sweep": one row for each)
-    x_ticks = ["0.3", "0.49"]                    # optional: what is written for the values of x (x_label, y_label: for the keys)
+    x_ticks = ["0.3", "0.49"]                    # optional: what is written for the values of x (y_ticks; x_label, y_label: for the keys)
     degrades = 10                                # an error of this many times the best one of its row
     or_above = 0.01                              # and, instead, whatever the best: an error above this
     fails_above = 0.5                            # optional: an error above this is no answer

@@ -110,7 +110,7 @@ def draw_map(bench, rows):
                 axis.text(*place, text, ha="center", va="center", fontsize=7, color="white" if colour != DEGRADES else INK)
     axis.set(xlim=(-0.5, len(xs) - 0.5), ylim=(-0.5, len(ys) - 0.5), xticks=range(len(xs)), yticks=range(len(ys)))
     axis.set_xticklabels(bench.map.get("x_ticks", [str(x) for x in xs]), fontsize=8)
-    axis.set_yticklabels([str(y) for y in ys], fontsize=8)
+    axis.set_yticklabels(bench.map.get("y_ticks", [str(y) for y in ys]), fontsize=8)
     axis.grid(False)
     axis.tick_params(length=0)
     axis.set_xlabel(bench.map.get("x_label", x_key))

@@ -11,8 +11,9 @@ namespace {
 
 using namespace test;
 
-/// Clamped, stretched to 1.3 of its length in 0.5 s and then activated, fully at 1 s.
-std::unique_ptr<Muscle> stretched_muscle(const std::string& base) {
+/// Clamped, 30 mm long, pulled in 0.5 s and then activated until 1 s.
+std::unique_ptr<Muscle> stretched_muscle(const std::string& base, const std::string& pull = "9 mm",
+                                         double activation = 1) {
   return make_block(R"([muscle]
 inertia = "quasi-static"
 ellipticity = true
@@ -24,11 +25,15 @@ volumetric = { law = "simo", bulk_modulus = "10 MPa" }
 law = "hill_active"
 peak_stress = "200 kPa"
 max_strain_rate = "5 1/s"
-activation = { time = "0, 0.5, 1 s", value = [0, 0, 1] }
+activation = { time = "0, 0.5, 1 s", value = [0, 0, )" +
+                        std::to_string(activation) +
+                        R"(] }
 [boundary."x-"]
 clamp = true
 [boundary."x+"]
-displacement.x = { time = "0, 0.5 s", value = "0, 9 mm" }
+displacement.x = { time = "0, 0.5 s", value = "0, )" +
+                        pull +
+                        R"(" }
 displacement.y = "0 mm"
 displacement.z = "0 mm"
 [materials.muscle.terms.base]
@@ -65,6 +70,17 @@ TEST(Ellipticity, IsFoundLostBeforeNewtonFails) {
   EXPECT_FALSE(outcome.failure.empty()) << "a soft base ends in bands";
   EXPECT_GE(outcome.watched, 3) << "the last steps before that knew";
   EXPECT_LT(quantity(*model, "legendre_hadamard"), 0);
+}
+
+// configs/bench/stretched_active.toml
+TEST(Ellipticity, IsFoundLostBeforeNewtonFailsAtAnyStretch) {
+  for (const char* pull : {"0 mm", "6 mm", "12 mm", "18 mm"}) {
+    SCOPED_TRACE(pull);
+    const Outcome calm = activate(*stretched_muscle("20 kPa", pull, 0.1), 0.05);
+    EXPECT_EQ(calm.failure, "");
+    EXPECT_EQ(calm.watched, 0);
+    EXPECT_GE(activate(*stretched_muscle("20 kPa", pull, 1), 0.005).watched, 1);
+  }
 }
 
 TEST(Ellipticity, IsKeptByAStifferBase) {
