@@ -149,7 +149,7 @@ TEST_F(Advice, KeepsInertiaWhereItMatters) {
 TEST_F(Advice, MeasuresTheMeshWithTheStepThatItProposes) {
   rewrite(rod("end = \"30 ms\"\nstep = \"1 ms\"\nscheme = \"backward_euler\"\n",
               "{time = \"0, 20 ms\", value = \"0, 10 mm\"}\n"));
-  const titin::Advice found = find_advice({.scene_file = scene, .quantity = "reaction_x+_x", .tolerance = 0.02});
+  const Proposal found = find_advice({.scene_file = scene, .quantity = "reaction_x+_x", .tolerance = 0.02});
   const Probe truth = probe(scene, {"rod.cells=160", "time.step=20 us"}, "reaction_x+_x");
   const Probe cheap = probe(scene, found.proposal, "reaction_x+_x");
   EXPECT_LT(difference(cheap, truth), found.error);
@@ -162,7 +162,7 @@ TEST_F(Advice, HalvesStepsThatAreTooLongToShowTheOrder) {
   rewrite(rod("end = \"8 ms\"\nstep = \"0.4 ms\"\nscheme = \"newmark\"\n",
               "{time = \"0, 0.2, 0.4, 0.6, 0.8, 1, 1.2, 1.4, 1.6, 1.8, 2 ms\", value = [0, 0.095492, 0.345492, "
               "0.654508, 0.904508, 1, 0.904508, 0.654508, 0.345492, 0.095492, 0], scale = \"0.01 mm\"}\n"));
-  const titin::Advice found = find_advice({.scene_file = scene, .quantity = "marker_middle_ux", .tolerance = 0.1});
+  const Proposal found = find_advice({.scene_file = scene, .quantity = "marker_middle_ux", .tolerance = 0.1});
   const Probe truth = probe(scene, {"rod.cells=160", "time.step=10 us"}, "marker_middle_ux");
   const Probe cheap = probe(scene, found.proposal, "marker_middle_ux");
   EXPECT_LT(difference(cheap, truth), found.error);
@@ -173,7 +173,7 @@ TEST_F(Advice, HalvesStepsThatAreTooLongToShowTheOrder) {
 /// 8 x 8 cells are what 3000 unknowns allow, and show no order; a twentieth of a run on 64 x 64 allows 16 x 16.
 TEST_F(Advice, ProbesExplicitCellsThatAreFineEnough) {
   rewrite(explicit_plate);
-  const titin::Advice found = find_advice({.scene_file = scene, .quantity = "energy_kinetic", .tolerance = 0.1});
+  const Proposal found = find_advice({.scene_file = scene, .quantity = "energy_kinetic", .tolerance = 0.1});
   EXPECT_NE(found.report[1].find("probes on 16 x 16 cells"), std::string::npos) << found.report[1];
   EXPECT_TRUE(found.reached);
   EXPECT_LE(probe(scene, found.proposal, "energy_kinetic").cells, 4 * 24 * 24);
