@@ -54,7 +54,7 @@ mfem::Mesh make_cells(const MeshConfig& config, NamedMesh& named) {
     named.boundaries = {{"y-", 1}, {"x+", 2}, {"y+", 3}, {"x-", 4}};
   else
     named.boundaries = {{"z-", 1}, {"y-", 2}, {"x+", 3}, {"y+", 4}, {"x-", 5}, {"z+", 6}};
-  if (config.cuts != BoxCuts::same) return make_cut_box(n, edge, config.cuts);
+  if (config.kind == BoxCells::simplices && config.cuts != BoxCuts::same) return make_cut_box(n, edge, config.cuts);
   if (edge.size() == 2) {
     const auto type = tensor ? Element::QUADRILATERAL : Element::TRIANGLE;
     return mfem::Mesh::MakeCartesian2D(n[0], n[1], type, true, edge[0], edge[1]);
@@ -152,8 +152,8 @@ bool is_a_box(const MeshConfig& config, Section& section) {
                   "give one for each edge");
   else if (config.kind == BoxCells::wedges && config.box.size() == 2)
     section.error("kind", "a plane body has no wedges", "take tensor or simplices");
-  else if (config.cuts != BoxCuts::same && config.kind != BoxCells::simplices)
-    section.error("cuts", "only simplices can be cut in other ways", "take kind = \"simplices\", or drop it");
+  else if (config.kind != BoxCells::simplices && section.has("cuts"))
+    section.error("cuts", "only boxes of simplices are cut", "take kind = \"simplices\", or drop it");
   else
     return has_fit_interfaces(config, section);
   return false;
@@ -174,8 +174,9 @@ bool names_one_mesh(const MeshConfig& config, Section& section) {
 double cells_of_box(const MeshConfig& config) {
   const bool plane = config.box.size() == 2, simplices = config.kind == BoxCells::simplices;
   const int parts = config.kind == BoxCells::tensor       ? 1
+                    : !simplices                          ? 2
                     : config.cuts == BoxCuts::crossed     ? (plane ? 4 : 24)
-                    : plane || !simplices                 ? 2
+                    : plane                               ? 2
                     : config.cuts == BoxCuts::alternating ? 5
                                                           : 6;
   return std::accumulate(config.cells.begin(), config.cells.end(), double(parts), std::multiplies<>());
@@ -221,13 +222,14 @@ void MeshConfig::bind(Section& s) {
   s.read("cells", cells, {.range = {.min = 1, .max = 1e4}, .doc = "cells of the box along x, y, z (default: one)"});
   s.choose("kind", kind,
            {{"tensor", BoxCells::tensor}, {"simplices", BoxCells::simplices}, {"wedges", BoxCells::wedges}},
-           {.doc = "cells of the box: hexahedra or quadrilaterals; each cut into 6 tetrahedra or 2 triangles; or into "
+           {.doc = "cells of the box: hexahedra or quadrilaterals; each cut into tetrahedra or triangles (cuts); or into "
                    "2 wedges"});
   s.choose(
       "cuts", cuts, {{"same", BoxCuts::same}, {"alternating", BoxCuts::alternating}, {"crossed", BoxCuts::crossed}},
       {.doc =
-           "of a box into simplices: all along the same diagonal, along one and the other in turn (5 tetrahedra), or "
-           "each into 4 triangles or 24 tetrahedra around its middle, alike in all directions"});
+           "of a box into simplices: along one diagonal and the other in turn (2 triangles, 5 tetrahedra), each around "
+           "its middle, alike in all directions (4, 24), or all along the same diagonal (2, 6), where finite volumes "
+           "lock"});
   s.read("interfaces", interfaces,
          {.unit = "m",
           .range = positive,

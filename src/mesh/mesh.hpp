@@ -19,7 +19,7 @@ struct MeshConfig {
   std::vector<double> box;           // edge lengths [m] of [0,a]x[0,b](x[0,c]); none: no box
   std::vector<int> cells;            // of the box; none: one in each direction
   BoxCells kind = BoxCells::tensor;  // of the box's cells
-  BoxCuts cuts = BoxCuts::same;
+  BoxCuts cuts = BoxCuts::alternating;
   std::vector<double> interfaces;  // planes across x between regions of the box [m]
   std::string file;                // Gmsh 2.2
   double unit = 1;                 // length of 1 in the file [m]
