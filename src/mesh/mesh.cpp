@@ -12,6 +12,7 @@
 #include "base/words.hpp"
 #include "mesh/cut_box.hpp"
 #include "mesh/gmsh.hpp"
+#include "mesh/inverted_cells.hpp"
 
 namespace titin {
 
@@ -193,22 +194,6 @@ bool has_fit_size(double cells, double growth, std::string_view key, Section& se
   else
     return true;
   return false;
-}
-
-/// Cells of this rank that have no positive volume somewhere.
-int inverted_cells(mfem::ParMesh& mesh) {
-  int inverted = 0;
-  for (int cell = 0; cell < mesh.GetNE(); ++cell) {
-    const auto& rule = mfem::IntRules.Get(mesh.GetElementGeometry(cell), 5);
-    auto* map = mesh.GetElementTransformation(cell);
-    bool positive = true;
-    for (int q = 0; q < rule.GetNPoints(); ++q) {
-      map->SetIntPoint(&rule.IntPoint(q));
-      positive = positive && map->Weight() > 0;
-    }
-    inverted += !positive;
-  }
-  return inverted;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "fe/muscle.hpp"
 #include "fv/lagrange.hpp"
 #include "mesh/box_shape.hpp"
+#include "mesh/inverted_cells.hpp"
 #include "mesh/mesh.hpp"
 #include "rod/rod.hpp"
 
@@ -65,6 +66,7 @@ struct SceneConfig {
     Section shape_section = mesh_section.section("shape", "where a box lies, and how it is bent");
     shape.bind(shape_section);
     if (named.mesh && !mesh.box.empty() && mesh_section.has("shape")) shape.apply(*named.mesh);
+    if (named.mesh) warn_of_inverted_corners(named);
     return named;
   }
 };

@@ -7,8 +7,10 @@
 #include <set>
 #include <sstream>
 
+#include "base/log.hpp"
 #include "base/parallel.hpp"
 #include "mesh/gmsh.hpp"
+#include "mesh/inverted_cells.hpp"
 #include "mesh/mesh.hpp"
 
 namespace titin {
@@ -155,11 +157,17 @@ TEST(Gmsh, MayBeInMillimetres) {
   EXPECT_NEAR(volume(named, "muscle"), 1e-15, 1e-27);
 }
 
-/// The error of two_bricks.msh with `from` replaced, without its place.
-std::string file_error(const std::string& from, const std::string& to) {
+/// two_bricks.msh with `from` replaced, in a file.
+std::string changed_file(const std::string& from, const std::string& to) {
   const std::string file = testing::TempDir() + "titin_bad_np" + std::to_string(ranks()) + ".msh";
   if (is_root()) std::ofstream(file) << replaced(text_of(two_bricks), from, to);
   any_of(false);  // waits for rank 0
+  return file;
+}
+
+/// The error of it, without its place.
+std::string file_error(const std::string& from, const std::string& to) {
+  const std::string file = changed_file(from, to);
   const std::string text = error("file = \"" + file + "\"\nrefine = 1\n"), head = "scene.toml:2:8: mesh.file: ";
   any_of(false);
   if (is_root()) std::remove(file.c_str());
@@ -180,6 +188,22 @@ TEST(Gmsh, WithCellsInsideOutIsRefused) {
   EXPECT_EQ(file_error("5 5 1 2 3 4 5 6 7 8", "5 5 5 6 7 8 1 2 3 4"),
             "8 of 16 cells are inside out; number the nodes of a cell as Gmsh does, and move those that make cells too "
             "slanted");
+}
+
+TEST(Gmsh, WithACornerInsideOutIsWarnedOf) {
+  const int before = logging::warnings();
+  warn_of_inverted_corners(read("file = \"" + two_bricks + "\"\n"));
+  EXPECT_EQ(logging::warnings(), before);
+  const std::string file = changed_file("\n1 0 0 0\n", "\n1 0.0052 0.0052 0\n");  // beyond the diagonal of its face
+  testing::internal::CaptureStderr();
+  warn_of_inverted_corners(read("file = \"" + file + "\"\n"));
+  const std::string said = testing::internal::GetCapturedStderr();
+  any_of(false);
+  if (!is_root()) return;
+  std::remove(file.c_str());
+  EXPECT_NE(said.find("1 of 2 cells turned inside out at a corner, the first at (0.0052, 0.0052, 0) m"),
+            std::string::npos)
+      << said;
 }
 
 TEST(Mesh, NeedsACellForEveryRankAndNotTooMany) {

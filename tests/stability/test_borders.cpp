@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/log.hpp"
 #include "scene/scene.hpp"
 
 namespace titin {
@@ -147,6 +148,17 @@ TEST(Distortion, IsBorneUntilCellsAreInsideOutAndThenSaysSo) {
     EXPECT_GE(plate(model, skewed(0.6)), 0) << model;
     EXPECT_EQ(plate(model, skewed(0.8)), -1) << model;
   }
+}
+
+TEST(Distortion, IsWarnedOfWhereACornerIsInsideOut) {
+  const auto warnings = [](const char* skew) {
+    const int before = logging::warnings();
+    Scene::read(TITIN_TEST_DATA "/../../configs/muscle/swinging_plate.toml",
+                {"mesh.cells=[16, 16]", "muscle.order=1", fmt::format("mesh.shape.skew={}", skew)});
+    return logging::warnings() - before;
+  };
+  EXPECT_EQ(warnings("0.6 m"), 0);
+  EXPECT_EQ(warnings("0.65 m"), 1);
 }
 
 // ---- A branch that relaxes: configs/bench/relaxation.toml; the numbers are of tests/data/exact/relaxing.py
