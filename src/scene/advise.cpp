@@ -28,7 +28,7 @@ using Say = std::function<void(const std::string&)>;
 
 /// A probe has at most so many unknowns, or costs at most so much: a part of the scene as it is, or CPU seconds.
 constexpr long probe_unknowns = 3000;
-constexpr double probe_part = 0.05, probe_seconds = 0.5;
+constexpr double probe_part = 0.05, probe_seconds = 1;
 constexpr double for_simplifications = 0.25, for_the_step = 0.25, for_the_mesh = 0.5;  // of the tolerance
 /// Of the largest quantity of the same unit: what Newton's tolerance leaves of a zero, and what round-off does.
 constexpr double vanishing = 1e-6, vanishing_explicit = 1e-12;

@@ -1,14 +1,14 @@
 /// Model no more than a scene needs: what inertia, pressure, dimension, order, mesh and step contribute to a quantity,
 /// from cheap runs, and the cheapest setting that keeps it within a tolerance.
 ///
-/// All runs ("probes") are of the scene on its own mesh, halved until one has at most 3000 unknowns, or costs half a
-/// second or a twentieth of the scene. A simplification costs what it changes there: max |q - q0| / max |q0| over time.
-/// The step's own error is by Richardson from steps of twice and four times the length, with the order that these show,
-/// at most the scheme's; steps that are too long to show three quarters of it are halved first. The mesh's is from
-/// meshes of half and a quarter of the cells along an edge, with the step that was chosen if that is the shorter one,
-/// and with the rate that these show, between 1 and k + 1, or 1 if there is no third mesh; where it is 1, cells are
-/// halved first, as long as a probe costs no more than said above. A quarter of the tolerance is for simplifications, a
-/// quarter for the step, half for the mesh; the parts are added, not their squares.
+/// All runs ("probes") are of the scene on its own mesh, halved until one has at most 3000 unknowns, or costs a second
+/// or a twentieth of the scene. A simplification costs what it changes there: max |q - q0| / max |q0| over time. The
+/// step's own error is by Richardson from steps of twice and four times the length, with the order that these show, at
+/// most the scheme's; steps that are too long to show three quarters of it are halved first. The mesh's is from meshes
+/// of half and a quarter of the cells along an edge, with the step that was chosen if that is the shorter one, and with
+/// the rate that these show, between 1/2 and k + 1, or 1 if there is no third mesh; where it is no more than 1, cells
+/// are halved first, as long as a probe costs no more than said above. A quarter of the tolerance is for
+/// simplifications, a quarter for the step, half for the mesh; the parts are added, not their squares.
 #pragma once
 
 #include <functional>

@@ -12,9 +12,10 @@ namespace {
 using Overrides = std::vector<std::string>;
 
 constexpr double shortest_step = 1.0 / 16, longest_step = 4, coarsest_mesh = 0.5, finest_mesh = 6;  // over the probe's
-constexpr double same_step = 1e-6;                       // round-off in a length
-constexpr double shown = 0.75;                           // of the scheme's order: less is not yet its own
-constexpr double slowest_rate = 1, slowest_order = 0.5;  // in space; in time, where what is followed jumps
+constexpr double same_step = 1e-6;  // round-off in a length
+constexpr double shown = 0.75;      // of the scheme's order: less is not yet its own
+constexpr double no_rate = 1, slowest_rate = 0.5,
+                 slowest_order = 0.5;  // in space; in time, where what is followed jumps
 /// Of implicit solves: block solver 1.0 to 1.1 (docs/verification/solvers.md), factors 1.5.
 constexpr double cost_exponent = 1.2;
 
@@ -70,7 +71,7 @@ class Judge {
   /// At the probe, on a finer mesh where it is too coarse to show an order.
   double mesh_error() {
     const double error = mesh_error_here();
-    return error > trial_.for_the_mesh && found_.rate <= slowest_rate && refined() ? mesh_error() : error;
+    return error > trial_.for_the_mesh && found_.rate <= no_rate && refined() ? mesh_error() : error;
   }
 
   /// While that is cheap.

@@ -63,7 +63,7 @@ std::string explicit_instead(const SceneFacts& facts, const Candidate& best, dou
   for (std::size_t i = 0; i < best.mesh.cells.size(); ++i) cells *= along(best, i);
   return fmt::format(
       "  implicit: {}, about {:.2g} CPU s; explicit (model = \"lagrange\") on its nodes: about "
-      "{:.0f} steps, {:.2g} CPU s",
+      "{:.0f} steps, {:.2g} CPU s, and another error",
       count(std::lround(end / best.step), "step"), best.cost, rough(steps), steps * cells * cut.seconds);
 }
 
@@ -73,7 +73,7 @@ std::string implicit_instead(const SceneFacts& facts, const Probe& probe, double
   const int needed = lines_that_follow(probe, error);
   return fmt::format(
       "  explicit: about {:.0f} steps; implicit (model = \"muscle\"): at least {}, each for about {:.0f} "
-      "explicit ones, so {}",
+      "explicit ones on the same nodes (and another error), so {}",
       rough(steps), needed, implicit_step,
       needed * implicit_step < steps ? "they may be cheaper" : "they are hardly cheaper");
 }
