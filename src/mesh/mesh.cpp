@@ -205,10 +205,10 @@ void MeshConfig::bind(Section& s) {
           .doc = "edge lengths of a box, two for a plane one; boundaries x-, x+, y-, y+, z-, z+, region body"});
   if (cells.empty()) cells.assign(box.size(), 1);
   s.read("cells", cells, {.range = {.min = 1, .max = 1e4}, .doc = "cells of the box along x, y, z (default: one)"});
-  s.choose("kind", kind,
-           {{"tensor", BoxCells::tensor}, {"simplices", BoxCells::simplices}, {"wedges", BoxCells::wedges}},
-           {.doc = "cells of the box: hexahedra or quadrilaterals; each cut into tetrahedra or triangles (cuts); or into "
-                   "2 wedges"});
+  s.choose(
+      "kind", kind, {{"tensor", BoxCells::tensor}, {"simplices", BoxCells::simplices}, {"wedges", BoxCells::wedges}},
+      {.doc = "cells of the box: hexahedra or quadrilaterals; each cut into tetrahedra or triangles (cuts); or into "
+              "2 wedges"});
   s.choose(
       "cuts", cuts, {{"same", BoxCuts::same}, {"alternating", BoxCuts::alternating}, {"crossed", BoxCuts::crossed}},
       {.doc =
