@@ -241,27 +241,13 @@ void EnergyMomentum::add_forces(int cell, const ThreeField& kernel, double* r) c
       }
 }
 
-void EnergyMomentum::add_tangent(int cell, const ThreeField& kernel, double* K) const {
-  const int dimension = tables_.dimension(), nodes = tables_.nodes(cell), padded = tables_.padded(cell);
-  const int n = dimension * nodes;
-  std::vector<double> H(3 * padded);  // w A_iJkL G_L for one i, k: [J][b]
+void EnergyMomentum::add_tangent(int cell, ThreeField& kernel, double* K) const {
+  std::vector<Mat9> weighted;
   for (std::size_t q = 0; q < points_.size(); ++q) {
-    const double* G = kernel.gradients() + 3 * q * padded;
-    for (int i = 0; i < dimension; ++i)
-      for (int k = 0; k < dimension; ++k) {
-        for (int J = 0; J < 3; ++J) {
-          const double* A = &points_[q].A[9 * (3 * i + J) + 3 * k];
-          const double w = tables_.weight(cell, q);
-          for (int b = 0; b < nodes; ++b)
-            H[J * padded + b] = w * (A[0] * G[b] + A[1] * G[padded + b] + A[2] * G[2 * padded + b]);
-        }
-        for (int a = 0; a < nodes; ++a) {
-          double* row = &K[(i * nodes + a) * n + k * nodes];
-          for (int b = 0; b < nodes; ++b)
-            row[b] += G[a] * H[b] + G[padded + a] * H[padded + b] + G[2 * padded + a] * H[2 * padded + b];
-        }
-      }
+    weighted.push_back(points_[q].A);
+    for (double& A : weighted.back()) A *= tables_.weight(cell, q);
   }
+  kernel.add_moduli(cell, weighted.data(), false, K);
   if (tables_.modes(cell) > 0) add_volumetric_stiffness(cell, kernel, K);
 }
 

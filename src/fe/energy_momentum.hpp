@@ -30,7 +30,7 @@ class EnergyMomentum {
   int bad_point() const { return bad_point_; }
   void add_forces(int cell, const ThreeField& kernel, double* r) const;
   /// The derivative by the displacement at the end of the step: not symmetric.
-  void add_tangent(int cell, const ThreeField& kernel, double* K) const;
+  void add_tangent(int cell, ThreeField& kernel, double* K) const;
 
  private:
   struct Point {

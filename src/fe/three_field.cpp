@@ -163,11 +163,11 @@ TangentPoints ThreeField::tangent_points(int cell, const Material& material, Poi
   return {A_.data(), cofactor_.data(), factor_.data(), S_.data(), inertia};
 }
 
-void ThreeField::add_block(int cell, int i, int k, double* K) {
+void ThreeField::add_block(int cell, const Mat9* moduli, int i, int k, double* K) {
   const int nodes = tables_.nodes(cell), padded = tables_.padded(cell), n = tables_.values(cell);
   for (int q = 0; q < points_; ++q)
     for (int J = 0; J < 3; ++J) {
-      const double* A = &A_[q][9 * (3 * i + J) + 3 * k];
+      const double* A = &moduli[q][9 * (3 * i + J) + 3 * k];
       const double* G = &G_[3 * q * padded];
       double* H = &H_[(3 * q + J) * padded];
       for (int b = 0; b < padded; ++b) H[b] = A[0] * G[b] + A[1] * G[padded + b] + A[2] * G[2 * padded + b];
@@ -178,18 +178,19 @@ void ThreeField::add_block(int cell, int i, int k, double* K) {
     for (int b = 0; b < nodes; ++b) K[(i * nodes + a) * n + k * nodes + b] += block[a * padded + b];
 }
 
-void ThreeField::add_tangent(int cell, const Material& material, PointInput in, double* K) {
+void ThreeField::add_moduli(int cell, const Mat9* A, bool symmetric, double* K) {
   const int dimension = tables_.dimension(), nodes = tables_.nodes(cell), n = tables_.values(cell);
-  set_total_moduli(cell, material, points(in));
-  const bool symmetric = material.symmetric_tangent(in.rate);
   for (int i = 0; i < dimension; ++i)
-    for (int k = symmetric ? i : 0; k < dimension; ++k) add_block(cell, i, k, K);
-  if (symmetric)  // K comes in symmetric (zero, or with earlier symmetric parts)
-    for (int i = 0; i < dimension; ++i)
-      for (int k = 0; k < i; ++k)
-        for (int a = 0; a < nodes; ++a)
-          for (int b = 0; b < nodes; ++b)
-            K[(i * nodes + a) * n + k * nodes + b] = K[(k * nodes + b) * n + i * nodes + a];
+    for (int k = symmetric ? i : 0; k < dimension; ++k) add_block(cell, A, i, k, K);
+  for (int i = 0; i < dimension && symmetric; ++i)
+    for (int k = 0; k < i; ++k)
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b) K[(i * nodes + a) * n + k * nodes + b] = K[(k * nodes + b) * n + i * nodes + a];
+}
+
+void ThreeField::add_tangent(int cell, const Material& material, PointInput in, double* K) {
+  set_total_moduli(cell, material, points(in));
+  add_moduli(cell, A_.data(), material.symmetric_tangent(in.rate), K);
   if (tables_.modes(cell) > 0) add_volumetric_stiffness(cell, material, K);
 }
 

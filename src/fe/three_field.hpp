@@ -36,8 +36,10 @@ class ThreeField {
 
   /// Adds the internal forces to r. `in` carries time, dt and rate; the points are filled in here.
   void add_forces(int cell, const Material& material, PointInput in, double* r);
-  /// Adds the tangent to K [values][values], row-major.
+  /// Adds the tangent to K [values][values], row-major; one that is symmetric to zero, or to another such one.
   void add_tangent(int cell, const Material& material, PointInput in, double* K);
+  /// Adds int Grad N : A : Grad N for moduli [points] times the points' weights.
+  void add_moduli(int cell, const Mat9* A, bool symmetric, double* K);
 
   /// The same in parts, for kernels over several cells; good until the next call.
   TangentPoints tangent_points(int cell, const Material& material, PointInput in, double inertia);
@@ -63,7 +65,7 @@ class ThreeField {
   /// M^-1 [int U''(D) psi psi^T dV] M^-1: the stiffness of the volume modes.
   void set_mode_stiffness(int cell, const Material& material, double* S) const;
   void add_volumetric_stiffness(int cell, const Material& material, double* K);
-  void add_block(int cell, int i, int k, double* K);
+  void add_block(int cell, const Mat9* moduli, int i, int k, double* K);
 
   const CellTables& tables_;
   int points_ = 0;  // of the cell that was deformed last
