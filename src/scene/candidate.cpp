@@ -124,7 +124,7 @@ class Judge {
     return {order, twice.ok() ? change / (std::exp2(order) - 1) : 1};
   }
 
-  /// Steps that are too long, and too long to show the scheme's order, are halved first.
+  /// Steps that are too long, and too long to show the scheme's order, are halved first, while that is cheap.
   void choose_step() {
     const ClockConfig& clock = trial_.clock;
     found_.step = clock.step;
@@ -132,7 +132,8 @@ class Judge {
     Probe twice = with_step(2 * step_), four = fine_.steps < 4 ? Probe{} : with_step(4 * step_);
     const double shortest = clock.step * shortest_step, longest = clock.step * longest_that_saves(twice, four);
     StepError seen = step_error(twice, four);
-    while (seen.order < shown * fine_.order && seen.error > trial_.for_the_step && step_ > shortest) {
+    while (seen.order < shown * fine_.order && seen.error > trial_.for_the_step && step_ > shortest &&
+           2 * fine_.cpu_seconds <= trial_.dearest) {
       Probe half = with_step(step_ / 2);
       if (!half.ok()) break;
       four = std::exchange(twice, std::exchange(fine_, std::move(half)));
@@ -145,7 +146,17 @@ class Judge {
     found_.step_error = seen.error * std::pow(found_.step / step_, seen.order);
     trial_.say(fmt::format("{:<34}{:>14}{:>12}  order {:.1f}: {:.4g} s for {}", fmt::format("step of {:.4g} s", step_),
                            percent(seen.error), "", seen.order, found_.step, percent(found_.step_error)));
-    if (found_.step < step_ * (1 - same_step)) fine_ = with_step(step_ = found_.step);
+    if (found_.step < step_ * (1 - same_step)) take_chosen_step();
+  }
+
+  /// On a coarser mesh where it is dear on this one; one that can be halved still, to be compared with.
+  void take_chosen_step() {
+    double cost = fine_.cpu_seconds * step_ / found_.step;
+    for (auto half = mesh_.halved(); half && half->halved() && cost > trial_.dearest; half = mesh_.halved()) {
+      cost /= cost_of(mesh_.over(*half), mesh_.dimension(), false);
+      mesh_ = *half;
+    }
+    fine_ = with_step(step_ = found_.step);
   }
 
   /// Over the probe's: longer steps that need more Newton iterations for it, or are cut, save nothing.

@@ -34,7 +34,7 @@ struct Trial {
   std::vector<std::string> taken;     // overrides: what was left out
   Probe asked, base;                  // as the scene asks; and with that left out
   double for_the_mesh, for_the_step;  // errors that each may have
-  double dearest;                     // [CPU s] of a probe on a finer mesh
+  double dearest;                     // [CPU s] of a probe on a finer mesh, or with a shorter step
 };
 
 /// The scene's own order and the one below it, as far as their probes get to the end. Collective.
