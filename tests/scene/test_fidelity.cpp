@@ -17,12 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Cells, order and inertia are more than it needs. Cells along x for two ranks to share.
+/// Cells, order and inertia are more than it needs; what a pressure costs here is too little to choose by. Cells along
+/// x for two ranks to share.
 const std::string block = R"(fidelity = "auto"
 fidelity_quantity = "reaction_x+_x"
 fidelity_tolerance = 0.05
 )" + std::string(uniform_block) +
-                          R"([output]
+                          R"([muscle]
+element = "displacement"
+[output]
 fields = false
 checkpoint_every = 1
 checkpoint_keep = 9
