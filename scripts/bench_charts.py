@@ -76,7 +76,8 @@ def slopes(bench, rows):
     """Fitted order, and the slopes of the first and the last two."""
     if len(rows) < 2:
         return "one run"
-    if math.isnan(fitted_order(bench, rows)):
+    rows = list({resolution(bench, row): row for row in rows}.values())  # of one size with several steps the shortest
+    if len(rows) < 2:
         return "one mesh, shorter steps"
     ends = [fitted_order(bench, pair) for pair in (rows[:2], rows[-2:])]
     return f"order {fitted_order(bench, rows):.2f}" + (f" ({ends[0]:.2f} first, {ends[1]:.2f} last)" if len(rows) > 2 else "")

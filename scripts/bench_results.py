@@ -168,8 +168,9 @@ def resolution(bench, row):
 
 
 def fitted_order(bench, rows):
-    """Slope of error over resolution by least squares; nan for less than two good rows."""
-    points = [(math.log(resolution(bench, r)), math.log(r.error)) for r in rows if r.status == "finished" and r.error > 0]
+    """Slope of error over resolution by least squares; nan for less than two good rows. Of rows that share a resolution the last counts."""
+    good = {resolution(bench, row): row.error for row in rows if row.status == "finished" and row.error > 0}
+    points = [(math.log(size), math.log(error)) for size, error in good.items()]
     if len(points) < 2:
         return math.nan
     x, y = (sum(p[i] for p in points) / len(points) for i in (0, 1))

@@ -173,8 +173,15 @@ def scene_sections():
 
 
 def benches():
+    """Those with a table and a picture. One whose cases have changed since is a mistake: its picture would lack them."""
     of = [Bench(path, pathlib.Path("results")) for path in sorted((ROOT / "configs" / "bench").glob("*.toml"))]
-    return [bench for bench in of if bench.file.exists() and picture_of(bench).exists()]
+    of = [bench for bench in of if bench.file.exists() and picture_of(bench).exists()]
+    for bench in of:
+        rows = bench.rows(bench.file)
+        missing = sum((line.name, line.key(case)) not in rows for line in bench.lines for case in line.cases(False))
+        if missing:
+            raise Problem(f"{missing} cases of configs/bench/{bench.path.name} have no row; scripts/bench.py {bench.path.stem} runs them")
+    return of
 
 
 def picture_of(bench):
