@@ -8,15 +8,6 @@
 
 namespace titin {
 
-mfem::Vector places_of_dofs(mfem::ParFiniteElementSpace& space) {
-  mfem::VectorFunctionCoefficient place(space.GetVDim(), [](const mfem::Vector& X, mfem::Vector& x) { x = X; });
-  mfem::ParGridFunction field(&space);
-  field.ProjectCoefficient(place);
-  mfem::Vector X(space.GetTrueVSize());
-  field.GetTrueDofs(X);
-  return X;
-}
-
 /// Interpolates what MuscleSystem::cell_values() gave.
 Vec3 Momenta::at_point(int cell, int q, const std::vector<double>& values) const {
   const CellTables& tables = system_.tables();

@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "fe/muscle_system.hpp"
+#include "fe/places_of_dofs.hpp"
 #include "solve/model.hpp"
 
 namespace titin {
-
-/// Places of the true dofs at rest [m].
-mfem::Vector places_of_dofs(mfem::ParFiniteElementSpace& space);
 
 class Momenta {
  public:

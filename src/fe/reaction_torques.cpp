@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.hpp"
-#include "fe/momenta.hpp"
+#include "fe/places_of_dofs.hpp"
 
 namespace titin {
 

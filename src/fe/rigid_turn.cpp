@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "fe/momenta.hpp"
+#include "fe/places_of_dofs.hpp"
 #include "mesh/simplex_geometry.hpp"
 
 namespace titin {
